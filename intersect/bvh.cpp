@@ -1,0 +1,120 @@
+#include "bvh.h"
+
+#include <array>
+#include <numeric>
+
+namespace shaolin {
+
+struct Bvh::Builder {
+  static constexpr int bin_count = 16;
+
+  const std::vector<Box>& boxes;
+  std::vector<Vec3> centres;
+  std::vector<std::int32_t> order;
+  std::vector<Node>& nodes;
+  int depth = 0;
+
+  struct Range {
+    std::size_t begin, end;
+    std::size_t size() const { return end - begin; }
+  };
+  struct Task {
+    std::size_t node;
+    Range range;
+    int depth;
+  };
+
+  void build() {
+    nodes.reserve(2 * boxes.size());
+    nodes.push_back({});
+    std::vector<Task> tasks{{0, {0, boxes.size()}, 0}};
+    while (!tasks.empty()) {
+      const Task task = tasks.back();
+      tasks.pop_back();
+      depth = std::max(depth, task.depth);
+      Node node;
+      for (std::size_t i = task.range.begin; i < task.range.end; ++i) node.box.add(boxes[at(order[i])]);
+      if (task.range.size() == 1) {
+        node.first = ~order[task.range.begin];
+      } else {
+        const std::size_t middle = split(task.range);
+        const std::size_t first = nodes.size();
+        node.first = static_cast<std::int32_t>(first);
+        nodes.resize(first + 2);
+        tasks.push_back({first, {task.range.begin, middle}, task.depth + 1});
+        tasks.push_back({first + 1, {middle, task.range.end}, task.depth + 1});
+      }
+      nodes[task.node] = node;
+    }
+  }
+
+  static std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+  /// Where to cut the range, after reordering it: the cheapest of the bins' borders on the longest axis of the centres,
+  /// or the middle if all centres fall into one bin.
+  std::size_t split(Range range) {
+    Box extent;
+    for (std::size_t i = range.begin; i < range.end; ++i) extent.add(centres[at(order[i])]);
+    int axis;
+    const double length = (extent.upper - extent.lower).maxCoeff(&axis);
+    const std::size_t middle = range.begin + range.size() / 2;
+    if (!(length > 0) || !std::isfinite(length)) return middle;
+
+    const double scale = bin_count / length;
+    const auto bin_of = [&](std::int32_t primitive) {
+      const double bin = (centres[at(primitive)][axis] - extent.lower[axis]) * scale;
+      return std::min(bin_count - 1, static_cast<int>(bin));
+    };
+    const int border = cheapest_border(range, bin_of);
+    const auto begin = order.begin() + static_cast<std::ptrdiff_t>(range.begin);
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(range.end);
+    const auto cut = std::stable_partition(begin, end, [&](std::int32_t p) { return bin_of(p) < border; });
+    return cut == begin || cut == end ? middle : static_cast<std::size_t>(cut - order.begin());
+  }
+
+  /// The bin before which the sum of area x count over both sides is least.
+  template <class BinOf>
+  int cheapest_border(Range range, BinOf bin_of) const {
+    std::array<Box, bin_count> bins;
+    std::array<double, bin_count> counts{};
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto bin = static_cast<std::size_t>(bin_of(order[i]));
+      bins[bin].add(boxes[at(order[i])]);
+      ++counts[bin];
+    }
+    std::array<double, bin_count> right_cost{};
+    Box right;
+    double right_count = 0;
+    for (std::size_t i = bin_count - 1; i > 0; --i) {
+      right.add(bins[i]);
+      right_count += counts[i];
+      right_cost[i] = right_count > 0 ? right_count * right.half_area() : 0;
+    }
+    Box left;
+    double left_count = 0, best = std::numeric_limits<double>::infinity();
+    int border = bin_count / 2;
+    for (std::size_t i = 1; i < bin_count; ++i) {
+      left.add(bins[i - 1]);
+      left_count += counts[i - 1];
+      const double cost = (left_count > 0 ? left_count * left.half_area() : 0) + right_cost[i];
+      if (cost < best) {
+        best = cost;
+        border = static_cast<int>(i);
+      }
+    }
+    return border;
+  }
+};
+
+Bvh::Bvh(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  Builder builder{boxes, {}, std::vector<std::int32_t>(boxes.size()), nodes_};
+  builder.centres.reserve(boxes.size());
+  for (const Box& box : boxes) builder.centres.push_back(box.centre());
+  std::iota(builder.order.begin(), builder.order.end(), 0);
+  builder.build();
+  nodes_.shrink_to_fit();
+  depth_ = builder.depth;
+}
+
+}  // namespace shaolin

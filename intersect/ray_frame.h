@@ -1,0 +1,58 @@
+#pragma once
+/// The planes RP and CP of Mueller et al. 2003, section 6, as a change of coordinates.
+#include "box.h"
+
+namespace shaolin {
+
+/// RP holds the ray and the normal of the start patch's plane TP, CP holds the ray and stands on RP. In the coordinates
+/// (distance from RP, distance from CP, distance along the ray) the ray becomes the origin of a plane, and a surface
+/// point is met where the first two vanish. Both planes are fixed per ray and start patch; any two planes through the
+/// ray would do, but these two bound a flat patch most tightly.
+class RayFrame {
+ public:
+  RayFrame(const TraversalRay& ray, const Vec3& patch_normal) : origin_(ray.origin), direction_(ray.direction) {
+    Vec3 across = direction_.cross(patch_normal);
+    // The ray runs along the normal (or there is none): any plane through the ray can be RP.
+    if (!(across.squaredNorm() > 1e-6 * patch_normal.squaredNorm())) across = direction_.unitOrthogonal();
+    rp_ = across.normalized();
+    cp_ = rp_.cross(direction_);
+  }
+
+  /// A point in the ray's coordinates.
+  Vec3 project(const Vec3& point) const {
+    const double x = point.x() - origin_.x(), y = point.y() - origin_.y(), z = point.z() - origin_.z();
+    return {rp_.x() * x + rp_.y() * y + rp_.z() * z, cp_.x() * x + cp_.y() * y + cp_.z() * z,
+            direction_.x() * x + direction_.y() * y + direction_.z() * z};
+  }
+  template <class Points>
+  void project(const Points& from, Points& to) const {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = project(from[i]);
+  }
+
+  /// The bounds of points in the ray's coordinates.
+  template <class Points>
+  Box hull(const Points& points) const {
+    Box box;
+    for (const Vec3& point : points) box.add(project(point));
+    return box;
+  }
+
+  /// A bound on the error of a coordinate of a point that is known to within rounding, for points in `box`.
+  ///
+  /// With u = 2^-53, M the largest coordinate of the box and Q the largest of the box relative to the origin: the
+  /// control points of a patch are the input's, put through up to l levels of convex combinations and a conversion to
+  /// Bezier form; each rounds with at most 6 u M, and convex combinations do not amplify, so 6 (l + 2) u M; levels
+  /// above 8 come with patches so small that their sums are of nearly equal terms, 64 u M covers them. Subtracting the
+  /// origin and a scalar product of three terms with a frame vector, itself good to 6 u, gives (1 + 3 + 6) u sqrt(3) Q
+  /// < 18 u Q. Evaluation of the polynomial stays below 16 u of either. Twice the sum leaves room for second order.
+  double error(const Box& box) const {
+    const double relative =
+        std::max((box.lower - origin_).cwiseAbs().maxCoeff(), (box.upper - origin_).cwiseAbs().maxCoeff());
+    return unit_roundoff * (160 * box.largest_coordinate() + 64 * relative);
+  }
+
+ private:
+  Vec3 origin_, direction_, rp_, cp_;
+};
+
+}  // namespace shaolin

@@ -1,0 +1,267 @@
+#pragma once
+/// ShaoLin, the shadow of the line: ray queries on the limit surface of a subdivision mesh (Mueller, Techmann, Fellner,
+/// "Adaptive ray tracing of subdivision surfaces", Eurographics 2003), with an exact finish in place of chord
+/// triangles.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "../schemes/scheme_surface.h"
+#include "bvh.h"
+#include "counters.h"
+#include "exact_finish.h"
+#include "patch_tree.h"
+#include "ray_frame.h"
+
+namespace shaolin {
+
+/// What a query looks for: the closest hit, or any.
+enum class Query { closest, any };
+
+template <Scheme S, template <class> class Finish>
+class ShaoLin {
+ public:
+  /// Bounds every face by the box of its control neighbourhood. O(n log n); nothing is refined yet.
+  explicit ShaoLin(const SchemeSurface<S>& surface);
+
+  /// The hit with the least t in [tmin, tmax]. Of hits at equal distance, the face visited first wins; the order of
+  /// visits depends on the ray alone. The work goes to `counters`.
+  std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const;
+
+  /// True if there is a hit in [tmin, tmax].
+  bool occluded(const Ray& ray, RayCounters& counters) const;
+
+  const Bvh& bvh() const { return bvh_; }
+  std::uint64_t limit_faces() const { return face_of_primitive_.size(); }
+  std::uint64_t faces_touched() const { return faces_touched_; }
+  std::uint64_t patches_split() const { return totals_.patches_split; }
+  std::uint64_t bytes() const {
+    return totals_.bytes + bvh_.bytes() +
+           face_of_primitive_.size() * (sizeof(int) + sizeof(std::atomic<StartPatches*>));
+  }
+
+ private:
+  using Node = PatchNode<S>;
+  using Regular = typename S::Regular;
+
+  /// A start patch: the patch of a face, or of an n-gon's corner, and the normal of its plane TP.
+  struct StartPatch {
+    Node root;
+    Vec3 normal;
+    int sub;
+  };
+  /// All start patches of a face; made when a ray first reaches the face.
+  struct StartPatches {
+    std::vector<std::unique_ptr<const StartPatch>> patches;
+  };
+
+  /// A place in a node's parameters, met at a distance along the ray.
+  struct Found {
+    const Node* node = nullptr;
+    PatchHit hit;
+    int face = 0;
+    int sub = 0;
+  };
+
+  /// A ray on its way through one start patch.
+  struct Search {
+    const TraversalRay& ray;
+    RayFrame frame;
+    double far;
+    RayCounters& counters;
+    Found found{};
+  };
+
+  const StartPatches& start_patches(int primitive) const;
+  Vec3 plane_normal(const Patch<S>& patch) const;
+  template <Query query>
+  void descend(const Node& node, Search& search) const;
+  void finish(const Node& node, Search& search) const;
+  void finish_irregular(const Node& node, const Vec3& low, const Vec3& high, Search& search) const;
+  template <Query query>
+  Found search(const TraversalRay& ray, RayCounters& counters) const;
+  LimitSample sample(const Found& found, const SurfaceParameter& at) const;
+
+  const SchemeSurface<S>& surface_;
+  std::vector<int> face_of_primitive_;
+  Bvh bvh_;
+  mutable std::vector<std::atomic<StartPatches*>> start_patches_;
+  mutable TreeTotals totals_;
+  mutable std::atomic<std::uint64_t> faces_touched_{0};
+
+ public:
+  ~ShaoLin() {
+    for (auto& slot : start_patches_) delete slot.load();
+  }
+  ShaoLin(const ShaoLin&) = delete;
+  ShaoLin& operator=(const ShaoLin&) = delete;
+};
+
+template <Scheme S, template <class> class Finish>
+ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface) {
+  const SubdivisionMesh<S>& mesh = surface.mesh();
+  // A face's neighbourhood is the union of its corners' rings, so one pass collects the rings' boxes.
+  std::vector<Box> rings(static_cast<std::size_t>(mesh.vertex_count()));
+  for (const int f : mesh.faces()) {
+    Box box;
+    for (const int v : mesh.face(f)) box.add(mesh.point(v));
+    for (const int v : mesh.face(f)) rings[static_cast<std::size_t>(v)].add(box);
+  }
+  std::vector<Box> boxes;
+  for (const int f : mesh.faces()) {
+    if (!mesh.has_limit(f)) continue;
+    Box box;
+    for (const int v : mesh.face(f)) box.add(rings[static_cast<std::size_t>(v)]);
+    const double slack = 160 * unit_roundoff * box.largest_coordinate();
+    box.lower.array() -= slack;
+    box.upper.array() += slack;
+    boxes.push_back(box);
+    face_of_primitive_.push_back(f);
+  }
+  bvh_ = Bvh(boxes);
+  start_patches_ = std::vector<std::atomic<StartPatches*>>(boxes.size());
+}
+
+/// The normal of TP: of the plane through the corners' limit points (section 8.2 for quads). A corner whose limit masks
+/// do not apply yet lends its control point; the plane only serves to orient RP and CP.
+template <Scheme S, template <class> class Finish>
+Vec3 ShaoLin<S, Finish>::plane_normal(const Patch<S>& patch) const {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < patch.configuration->corner_count(); ++k) {
+    const std::optional<CornerLimit> limit = corner_limit(patch, k);
+    corners.push_back(limit ? limit->position : patch.points[static_cast<std::size_t>(k)]);
+  }
+  using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
+  return Base::chord_normal(corners);
+}
+
+template <Scheme S, template <class> class Finish>
+auto ShaoLin<S, Finish>::start_patches(int primitive) const -> const StartPatches& {
+  std::atomic<StartPatches*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
+  if (const StartPatches* known = slot.load(std::memory_order_acquire)) return *known;
+
+  const int face = face_of_primitive_[static_cast<std::size_t>(primitive)];
+  const Patch<S> whole = surface_.mesh().patch(face, surface_.table());
+  const bool by_corner = surface_.splits_by_corner(face);
+  auto made = std::make_unique<StartPatches>();
+  std::uint64_t bytes = sizeof(StartPatches);
+  for (int sub = 0; sub < surface_.sub_count(face); ++sub) {
+    Patch<S> patch = by_corner ? whole.child(sub) : whole;
+    const Vec3 normal = plane_normal(patch);
+    made->patches.emplace_back(new StartPatch{Node(std::move(patch), by_corner, totals_), normal, sub});
+    bytes += sizeof(StartPatch) + made->patches.back()->root.own_bytes();
+  }
+  StartPatches* expected = nullptr;
+  if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
+  totals_.bytes += bytes;
+  totals_.patches_split += by_corner;
+  ++faces_touched_;
+  return *made.release();
+}
+
+template <Scheme S, template <class> class Finish>
+template <Query query>
+auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) const -> Found {
+  Found best;
+  double far = ray.far;
+  bvh_.traverse(
+      ray, [&] { return far; },
+      [&](int primitive, double) {
+        for (const auto& start : start_patches(primitive).patches) {
+          if (entry_distance(start->root.box(), ray, far) == missed) continue;
+          Search search{ray, RayFrame(ray, start->normal), far, counters};
+          descend<query>(start->root, search);
+          if (!search.found.node) continue;
+          best = search.found;
+          best.face = face_of_primitive_[static_cast<std::size_t>(primitive)];
+          best.sub = start->sub;
+          far = std::min(far, best.hit.distance);
+          if (query == Query::any) return true;
+        }
+        return false;
+      });
+  return best;
+}
+
+template <Scheme S, template <class> class Finish>
+bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
+  return search<Query::any>(TraversalRay(ray), counters).node != nullptr;
+}
+
+template <Scheme S, template <class> class Finish>
+std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& counters) const {
+  const TraversalRay traversal(ray);
+  const Found found = search<Query::closest>(traversal, counters);
+  if (!found.node) return {};
+  const Parameter at = Domain<S::face_kind>::nearest(found.node->to_root(found.hit.at));
+  Hit hit;
+  hit.t = std::clamp(found.hit.distance / traversal.length, ray.tmin, ray.tmax);
+  hit.at = {found.face, found.sub, at.x(), at.y()};
+  hit.level = found.node->level();
+  hit.sample = sample(found, hit.at);
+  return hit;
+}
+
+/// The surface at a hit: from the polynomial where it is as good as evaluation from the control face, that is, unless
+/// the piece is so small that differences of its absolute coordinates lose the normal's digits.
+template <Scheme S, template <class> class Finish>
+LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
+  constexpr int deepest_absolute = 8;
+  if (!found.node->is_regular() || found.node->level() > deepest_absolute) return *surface_.evaluate(at);
+  return detail::sample(found.node->regular(), found.hit.at, Vec3::Zero(), 1 / found.node->scale());
+}
+
+/// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,
+/// front to back.
+template <Scheme S, template <class> class Finish>
+template <Query query>
+void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
+  if (node.is_leaf()) return finish(node, search);
+
+  ++search.counters.hull_tests;
+  const Box hull = node.is_regular() ? search.frame.hull(node.regular().b) : search.frame.hull(node.irregular().points);
+  const Vec3 &low = hull.lower, &high = hull.upper;
+  const double error = search.frame.error(node.box());
+  if (low.x() > error || high.x() < -error || low.y() > error || high.y() < -error) return;
+  if (high.z() < search.ray.near - error || low.z() > search.far + error) return;
+  // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
+  if (!node.is_regular() && std::max(std::max(high.x(), -low.x()), std::max(high.y(), -low.y())) <= error)
+    return finish_irregular(node, low, high, search);
+
+  const typename Node::Children& children = node.children(totals_);
+  std::array<std::pair<double, int>, 4> shadow_list;
+  std::size_t shadowed = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double entry = entry_distance(children[k].box(), search.ray, search.far);
+    if (entry != missed) shadow_list[shadowed++] = {entry, static_cast<int>(k)};
+  }
+  std::sort(shadow_list.begin(), shadow_list.begin() + static_cast<std::ptrdiff_t>(shadowed));
+  for (std::size_t i = 0; i < shadowed; ++i) {
+    if (shadow_list[i].first > search.far) break;
+    descend<query>(children[static_cast<std::size_t>(shadow_list[i].second)], search);
+    if (query == Query::any && search.found.node) return;
+  }
+}
+
+template <Scheme S, template <class> class Finish>
+void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
+  Regular projected;
+  search.frame.project(node.regular().b, projected.b);
+  Finish<Regular> solver(search.frame.error(node.box()), search.ray.near, search.far, search.counters);
+  if (!solver.solve(projected)) return;
+  search.found.node = &node;
+  search.found.hit = solver.hit();
+  search.far = std::min(search.far, solver.hit().distance);
+}
+
+/// The whole patch is one point to within rounding: the irregular corner's limit.
+template <Scheme S, template <class> class Finish>
+void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Vec3& low, const Vec3& high, Search& search) const {
+  const double distance = std::max(0.5 * (low.z() + high.z()), search.ray.near);
+  if (distance > search.far) return;
+  search.found.node = &node;
+  search.found.hit = {Domain<S::face_kind>::centre(), distance};
+  search.far = distance;
+}
+
+}  // namespace shaolin

@@ -1,0 +1,127 @@
+#pragma once
+/// The regular patch of Catmull-Clark: a bicubic polynomial, in Bezier form.
+#include <array>
+
+#include "domain.h"
+#include "limit_sample.h"
+
+namespace shaolin {
+
+/// Position and first derivatives at a parameter.
+struct FirstOrder {
+  Vec3 position, du, dv;
+};
+
+/// Sixteen Bezier points, b[4 j + i] at u = i / 3, v = j / 3. The surface lies in their convex hull.
+struct BezierQuad {
+  using DomainType = Domain<FaceKind::quad>;
+  static constexpr int size = 16;
+  static constexpr int spline_size = 16;
+  std::array<Vec3, size> b;
+
+  /// From the 4 x 4 control points of a uniform bicubic B-spline, p[4 j + i], whose patch lies over the middle square:
+  /// per direction (1, 4, 1)/6, (4, 2)/6, (2, 4)/6, (1, 4, 1)/6.
+  static BezierQuad from_spline(const std::array<Vec3, spline_size>& p) {
+    BezierQuad along_u, result;
+    for (std::size_t j = 0; j < 4; ++j) cubic_to_bezier(&p[4 * j], &along_u.b[4 * j], 1);
+    for (std::size_t i = 0; i < 4; ++i) cubic_to_bezier(&along_u.b[i], &result.b[i], 4);
+    return result;
+  }
+
+  FirstOrder first_order(const Parameter& at) const {
+    const Bernstein u(at.x()), v(at.y());
+    FirstOrder result{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t j = 0; j < 4; ++j) {
+      const Vec3 row = combine(u.value, j), row_du = combine(u.first, j);
+      result.position += v.value[j] * row;
+      result.du += v.value[j] * row_du;
+      result.dv += v.first[j] * row;
+    }
+    return result;
+  }
+
+  Derivatives derivatives(const Parameter& at) const {
+    const Bernstein u(at.x()), v(at.y());
+    Derivatives d{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t j = 0; j < 4; ++j) {
+      const Vec3 row = combine(u.value, j), row_du = combine(u.first, j);
+      d.du += v.value[j] * row_du;
+      d.dv += v.first[j] * row;
+      d.duu += v.value[j] * combine(u.second, j);
+      d.duv += v.first[j] * row_du;
+      d.dvv += v.second[j] * row;
+    }
+    return d;
+  }
+
+  /// The four quarters, in the order of Domain<quad> (de Casteljau at 1/2: midpoints only).
+  std::array<BezierQuad, 4> split() const {
+    BezierQuad low, high;
+    for (std::size_t j = 0; j < 4; ++j) halve(&b[4 * j], &low.b[4 * j], &high.b[4 * j], 1);
+    std::array<BezierQuad, 4> quarter;
+    for (std::size_t i = 0; i < 4; ++i) {
+      halve(&low.b[i], &quarter[0].b[i], &quarter[3].b[i], 4);
+      halve(&high.b[i], &quarter[1].b[i], &quarter[2].b[i], 4);
+    }
+    return quarter;
+  }
+
+  /// Calls visit(vector) for the control points of the u derivative, then of the v derivative: their hulls hold the
+  /// derivatives.
+  template <class Visit>
+  void visit_du(Visit visit) const {
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t i = 0; i < 3; ++i) visit(Vec3(3 * (b[4 * j + i + 1] - b[4 * j + i])));
+  }
+  template <class Visit>
+  void visit_dv(Visit visit) const {
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 4; ++i) visit(Vec3(3 * (b[4 * j + i + 4] - b[4 * j + i])));
+  }
+
+  /// Derivatives of the mean plane, from the corners.
+  Vec3 mean_du() const { return 0.5 * ((b[3] - b[0]) + (b[15] - b[12])); }
+  Vec3 mean_dv() const { return 0.5 * ((b[12] - b[0]) + (b[15] - b[3])); }
+
+ private:
+  /// The cubic Bernstein polynomials and their derivatives.
+  struct Bernstein {
+    std::array<double, 4> value, first, second;
+    explicit Bernstein(double t) {
+      const double s = 1 - t;
+      value = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+      first = {-3 * s * s, 3 * s * (s - 2 * t), 3 * t * (2 * s - t), 3 * t * t};
+      second = {6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t};
+    }
+  };
+
+  Vec3 combine(const std::array<double, 4>& w, std::size_t row) const {
+    return w[0] * b[4 * row] + w[1] * b[4 * row + 1] + w[2] * b[4 * row + 2] + w[3] * b[4 * row + 3];
+  }
+
+  static void cubic_to_bezier(const Vec3* p, Vec3* out, std::size_t stride) {
+    const Vec3& p1 = p[stride];
+    const Vec3& p2 = p[2 * stride];
+    out[0] = (p[0] + 4 * p1 + p2) / 6;
+    out[stride] = (2 * p1 + p2) / 3;
+    out[2 * stride] = (p1 + 2 * p2) / 3;
+    out[3 * stride] = (p1 + 4 * p2 + p[3 * stride]) / 6;
+  }
+
+  static void halve(const Vec3* p, Vec3* low, Vec3* high, std::size_t stride) {
+    const Vec3 m01 = 0.5 * (p[0] + p[stride]);
+    const Vec3 m12 = 0.5 * (p[stride] + p[2 * stride]);
+    const Vec3 m23 = 0.5 * (p[2 * stride] + p[3 * stride]);
+    const Vec3 left = 0.5 * (m01 + m12);
+    const Vec3 right = 0.5 * (m12 + m23);
+    low[0] = p[0];
+    low[stride] = m01;
+    low[2 * stride] = left;
+    low[3 * stride] = high[0] = 0.5 * (left + right);
+    high[stride] = right;
+    high[2 * stride] = m23;
+    high[3 * stride] = p[3 * stride];
+  }
+};
+
+}  // namespace shaolin

@@ -1,0 +1,75 @@
+#pragma once
+/// Catmull and Clark's scheme on quads and n-gons (CAD 10(6), 1978).
+#include <cmath>
+#include <numbers>
+
+#include "bezier_quad.h"
+#include "crease_tangent.h"
+#include "scheme.h"
+
+namespace shaolin {
+
+struct CatmullClark {
+  static constexpr const char* name = "catmark";
+  static constexpr FaceKind face_kind = FaceKind::quad;
+  static constexpr int radius = 1;
+  static constexpr int regular_valence = 4;
+  using Regular = BezierQuad;
+
+  /// ((n - 2) vertex + mean of neighbours + mean of new face points) / n.
+  static VertexMask smooth_vertex(int n) {
+    const double weight = 1.0 / (static_cast<double>(n) * n);
+    return {static_cast<double>(n - 2) / n, weight, weight};
+  }
+
+  /// The mean of both ends and both new face points, not of the face points alone.
+  static EdgeMask smooth_edge() { return {0.25, 0.25}; }
+
+  /// Halstead, Kass and DeRose 1993: (n^2, 4, 1) / (n (n + 5)). It holds at valence 2 as well, where OpenSubdiv takes
+  /// the vertex itself, which is not the limit.
+  static LimitMask smooth_limit(int n) {
+    const double diagonal = 1.0 / (static_cast<double>(n) * (n + 5));
+    return {static_cast<double>(n) / (n + 5), 4 * diagonal, diagonal};
+  }
+
+  /// Halstead, Kass and DeRose 1993: A cos(2 pi i / n) a spoke, cos(2 pi i / n) + cos(2 pi (i + 1) / n) a diagonal.
+  static TangentMask smooth_tangent(int n, double first) {
+    const double step = 2 * std::numbers::pi / n;
+    return fourier_tangent(n, n, step, [=](int i) { return std::cos(step * (i - first)); });
+  }
+
+  /// The odd Fourier mode of the doubled sector, sin(i pi / k), with the same A; k = 2 is the regular crease. The masks
+  /// that Biermann, Levin and Zorin 2000 print belong to their modified rules, whose eigenvalue is 1/2 for every k.
+  static TangentMask crease_cross_tangent(int k) {
+    if (k == 1) return single_face_crease_tangent();
+    const double theta = std::numbers::pi / k;
+    TangentMask mask = fourier_tangent(k, k + 1, theta, [=](int i) { return i % k == 0 ? 0 : std::sin(i * theta); });
+    double edges = 0, diagonals = 0;
+    for (const double weight : mask.edges) edges += weight;
+    for (const double weight : mask.diagonals) diagonals += weight;
+    complete_crease_tangent(mask, subdominant(theta), mask.edges[1] / 16 + mask.diagonals[0] / 4,
+                            3.0 / 8 * edges + diagonals / 4);
+    return mask;
+  }
+
+ private:
+  /// The eigenvalue of the Fourier mode exp(i theta) of spokes and diagonals.
+  static double subdominant(double theta) {
+    const double c = std::cos(theta);
+    return (5 + c + std::sqrt((9 + c) * (1 + c))) / 16;
+  }
+
+  template <class Mode>
+  static TangentMask fourier_tangent(int faces, int spokes, double step, Mode mode) {
+    const double c = std::cos(step);
+    const double spoke = 1 + c + std::cos(step / 2) * std::sqrt(2 * (9 + c));
+    TangentMask mask;
+    for (int i = 0; i < spokes; ++i) mask.edges.push_back(spoke * mode(i));
+    for (int i = 0; i < faces; ++i) mask.diagonals.push_back(mode(i) + mode(i + 1));
+    return mask;
+  }
+};
+
+static_assert(Scheme<CatmullClark>);
+
+}  // namespace shaolin

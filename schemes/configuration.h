@@ -1,0 +1,121 @@
+#pragma once
+/// A configuration: the topology and sharpness around a face, shared by all patches that look alike.
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "neighbourhood.h"
+#include "regular_layout.h"
+#include "scheme.h"
+#include "split_program.h"
+
+namespace shaolin {
+
+template <Scheme S>
+class ConfigurationTable;
+
+/// Everything about a patch that does not depend on its points. Which masks apply follows from the configuration alone,
+/// so each configuration's split is worked out once, when it is first asked for, and shared. Sharpness decays and
+/// rings around an irregular vertex repeat, so the set of configurations closes after a few levels.
+template <Scheme S>
+class Configuration {
+ public:
+  using RegularPatch = typename S::Regular;
+  using Layout = std::array<SplinePoint, RegularPatch::spline_size>;
+
+  struct Child {
+    const Configuration* configuration;
+    SplitProgram program;
+  };
+
+  Configuration(CanonicalForm form, ConfigurationTable<S>& table)
+      : neighbourhood_(std::move(form.neighbourhood)),
+        point_count_(static_cast<int>(form.vertices.size())),
+        layout_(regular_layout<RegularPatch>(neighbourhood_)),
+        children_(static_cast<std::size_t>(child_count())),
+        table_(table) {}
+  ~Configuration() {
+    for (const auto& child : children_) delete child.load();
+  }
+  Configuration(const Configuration&) = delete;
+  Configuration& operator=(const Configuration&) = delete;
+
+  const Neighbourhood& neighbourhood() const { return neighbourhood_; }
+  int point_count() const { return point_count_; }
+  int corner_count() const { return static_cast<int>(neighbourhood_.face.vertices.size()); }
+  int child_count() const { return S::face_kind == FaceKind::triangle ? 4 : corner_count(); }
+
+  /// Where the spline control points of a regular patch stand; empty for an irregular one.
+  const std::optional<Layout>& layout() const { return layout_; }
+
+  /// The split: child k's configuration and the program that makes its points. Thread-safe.
+  const Child& child(int k) const {
+    const auto at = static_cast<std::size_t>(k);
+    if (const Child* known = children_[at].load(std::memory_order_acquire)) return *known;
+    auto made = std::make_unique<Child>(table_.split(*this, k));
+    Child* expected = nullptr;
+    if (children_[at].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;
+  }
+
+ private:
+  Neighbourhood neighbourhood_;
+  int point_count_;
+  std::optional<Layout> layout_;
+  mutable std::vector<std::atomic<Child*>> children_;
+  ConfigurationTable<S>& table_;
+};
+
+/// All configurations of a surface, each once.
+template <Scheme S>
+class ConfigurationTable {
+ public:
+  /// The configuration of a neighbourhood, and the neighbourhood's vertices in the order of the patch's points.
+  struct Match {
+    const Configuration<S>* configuration;
+    std::vector<int> vertices;
+  };
+  Match match(Neighbourhood neighbourhood) {
+    drop_beyond_creases(neighbourhood);
+    turn_to_face(neighbourhood);
+    CanonicalForm form = canonical_form(neighbourhood);
+    Match result{nullptr, form.vertices};
+    const std::lock_guard lock(mutex_);
+    auto& slot = configurations_[form.key];
+    if (!slot) slot = std::make_unique<Configuration<S>>(std::move(form), *this);
+    result.configuration = slot.get();
+    return result;
+  }
+
+  typename Configuration<S>::Child split(const Configuration<S>& parent, int k) {
+    Refinement refinement(parent.neighbourhood(), S::face_kind);
+    Match match = this->match(refinement.child(k, S::radius));
+    std::vector<RefinedVertex> wanted;
+    wanted.reserve(match.vertices.size());
+    for (const int vertex : match.vertices) wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
+    return {match.configuration, SplitProgram::compile<S>(parent.neighbourhood(), wanted)};
+  }
+
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return configurations_.size();
+  }
+
+ private:
+  struct KeyHash {
+    /// FNV-1a over the words of the key.
+    std::size_t operator()(const std::vector<int>& key) const {
+      std::size_t hash = 14695981039346656037u;
+      for (const int word : key) hash = (hash ^ static_cast<std::size_t>(word)) * 1099511628211u;
+      return hash;
+    }
+  };
+
+  mutable std::mutex mutex_;
+  std::unordered_map<std::vector<int>, std::unique_ptr<Configuration<S>>, KeyHash> configurations_;
+};
+
+}  // namespace shaolin

@@ -1,0 +1,74 @@
+#pragma once
+/// The control mesh as it was given: points, faces, sharpness tags. It knows no scheme and no half-edges.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vec3.h"
+
+namespace shaolin {
+
+/// What happens at a boundary (OpenSubdiv's VtxBoundaryInterpolation, numbered as in `t interpolateboundary`).
+enum class BoundaryInterpolation {
+  none = 0,             ///< faces at a boundary that is not sharpened have no limit surface
+  edge_and_corner = 1,  ///< boundary edges are infinitely sharp, and so are vertices with one face
+  edge_only = 2         ///< boundary edges are infinitely sharp
+};
+
+/// How the sharpness of a semi-sharp edge decays from level to level.
+enum class CreaseMethod { uniform, chaikin };
+
+/// Weights of edge points beside triangles in Catmull-Clark's first step.
+enum class TriangleSubdivision { catmark, smooth };
+
+/// Sharpness from here on is infinite (OpenSubdiv's SHARPNESS_INFINITE).
+inline constexpr float infinite_sharpness = 10.0f;
+
+/// Sharpness values are float, as OpenSubdiv stores them: the same file then gives the same surface to rounding.
+struct SharpEdge {
+  int a, b;
+  float sharpness;
+};
+struct SharpVertex {
+  int vertex;
+  float sharpness;
+};
+
+/// Points, faces and tags, with the input's indices (all counted from 0).
+struct ControlMesh {
+  std::vector<Vec3> positions;
+  std::vector<int> face_offsets{0};  ///< face f has corners face_vertices[face_offsets[f] .. face_offsets[f + 1])
+  std::vector<int> face_vertices;
+
+  std::vector<SharpEdge> sharp_edges;
+  std::vector<SharpVertex> sharp_vertices;
+  std::vector<int> holes;  ///< faces that shape their neighbours and have no surface themselves
+  BoundaryInterpolation boundary = BoundaryInterpolation::edge_and_corner;
+  CreaseMethod crease_method = CreaseMethod::uniform;
+  TriangleSubdivision triangle_subdivision = TriangleSubdivision::catmark;
+  std::string scheme;  ///< the file's `t scheme` hint; empty if it has none
+
+  /// What is odd but usable, one sentence each, with file and line where known: isolated vertices, a vertex repeated
+  /// in a face, creases on edges that do not exist.
+  std::vector<std::string> warnings;
+
+  int face_count() const { return static_cast<int>(face_offsets.size()) - 1; }
+  int face_size(int face) const { return face_offsets[face + 1] - face_offsets[face]; }
+  std::span<const int> face(int face) const {
+    return {face_vertices.data() + face_offsets[face], static_cast<std::size_t>(face_size(face))};
+  }
+  void add_face(std::span<const int> corners) {
+    face_vertices.insert(face_vertices.end(), corners.begin(), corners.end());
+    face_offsets.push_back(static_cast<int>(face_vertices.size()));
+  }
+  bool all_triangles() const;
+
+  /// The length of the diagonal of the control points' bounding box: the length unit of error reports.
+  double diagonal() const;
+};
+
+/// Checks a mesh that did not come from a file: indices in range, at least 3 corners a face, finite points, sharpness
+/// not negative and not NaN, at least one face. Appends warnings. Throws InputError that names the element. O(size).
+void check(ControlMesh& mesh);
+
+}  // namespace shaolin

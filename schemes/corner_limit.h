@@ -1,0 +1,87 @@
+#pragma once
+/// The limit at a patch's corner by masks.
+#include <optional>
+
+#include "patch.h"
+#include "sharpness.h"
+
+namespace shaolin {
+
+/// Position and, where the surface has one, the unit normal at a corner.
+struct CornerLimit {
+  Vec3 position;
+  std::optional<Vec3> normal;
+};
+
+namespace detail {
+
+/// Sums a tangent mask over a ring whose faces are of the scheme's kind, starting at spoke `first`.
+inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* points, std::size_t first) {
+  Vec3 sum = mask.vertex * points[ring.vertex];
+  for (std::size_t i = 0; i < mask.edges.size(); ++i)
+    sum += mask.edges[i] * points[ring.spokes[(first + i) % ring.spokes.size()].end];
+  for (std::size_t i = 0; i < mask.diagonals.size(); ++i)
+    sum += mask.diagonals[i] * points[ring.faces[(first + i) % ring.faces.size()].vertices[2]];
+  return sum;
+}
+
+template <Scheme S>
+CornerLimit smooth_limit(const Ring& ring, const Vec3* points) {
+  const int n = static_cast<int>(ring.spokes.size());
+  std::vector<int> ends, diagonals;
+  for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
+  const LimitMask mask = S::smooth_limit(n);
+  Vec3 position = mask.vertex * points[ring.vertex] + mask.edge * symmetric_sum({points, ends.data(), n});
+  if (mask.diagonal != 0) {
+    for (const FaceSides& face : ring.faces) diagonals.push_back(face.vertices[2]);
+    position += mask.diagonal * symmetric_sum({points, diagonals.data(), n});
+  }
+  const Vec3 cosine = tangent(S::smooth_tangent(n, 0), ring, points, 0);
+  const Vec3 sine = tangent(S::smooth_tangent(n, n / 4.0), ring, points, 0);
+  return {position, cosine.cross(sine).normalized()};
+}
+
+/// The crease is the cubic spline through its vertices; the patch's side leaves it along the cross tangent.
+template <Scheme S>
+CornerLimit crease_limit(const Ring& ring, const Vec3* points, std::size_t first, int faces) {
+  const Vec3& a = points[ring.spokes[first].end];
+  const Vec3& b = points[ring.spokes[(first + static_cast<std::size_t>(faces)) % ring.spokes.size()].end];
+  const Vec3 position = CubicCrease::limit_vertex * points[ring.vertex] + CubicCrease::limit_edge * (a + b);
+  const Vec3 across = tangent(S::crease_cross_tangent(faces), ring, points, first);
+  return {position, (a - b).cross(across).normalized()};
+}
+
+}  // namespace detail
+
+/// The limit at corner k, or empty while sharpness there still decays or faces around are not of the scheme's kind
+/// (split first). The normal is empty at a corner vertex of more than one face: its eigenvalues leave no common tangent
+/// plane, and each direction into the surface has its own.
+template <Scheme S>
+std::optional<CornerLimit> corner_limit(const Patch<S>& patch, int k) {
+  const Neighbourhood& n = patch.configuration->neighbourhood();
+  const Ring& ring = n.rings[static_cast<std::size_t>(k)];
+  const std::vector<float> sharpness = ring.spoke_sharpness();
+  if (is_semi_sharp(ring.sharpness) || std::any_of(sharpness.begin(), sharpness.end(), is_semi_sharp)) return {};
+  constexpr std::size_t own_size = S::face_kind == FaceKind::triangle ? 3 : 4;
+  for (const FaceSides& face : ring.faces)
+    if (face.vertices.size() != own_size) return {};
+
+  const Vec3* points = patch.points.data();
+  switch (vertex_rule(ring.sharpness, sharpness)) {
+    case VertexRule::smooth:
+    case VertexRule::dart:
+      return detail::smooth_limit<S>(ring, points);
+    case VertexRule::crease:
+      return detail::crease_limit<S>(ring, points, 0, static_cast<int>(ring.faces.size()));
+    default:
+      break;
+  }
+  CornerLimit limit{points[ring.vertex], {}};
+  if (!ring.closed && ring.faces.size() == 1) {
+    const Vec3 u = points[ring.spokes[0].end] - limit.position, v = points[ring.spokes[1].end] - limit.position;
+    limit.normal = u.cross(v).normalized();
+  }
+  return limit;
+}
+
+}  // namespace shaolin

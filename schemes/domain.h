@@ -1,0 +1,79 @@
+#pragma once
+/// The parameter domain of a patch and how the four children of a split lie in it.
+#include <array>
+
+#include <Eigen/Core>
+
+#include "scheme.h"
+
+namespace shaolin {
+
+/// Parameters (u, v) in a patch.
+using Parameter = Eigen::Vector2d;
+
+/// A place in one of the four children, in the child's own parameters.
+struct ChildParameter {
+  int child;
+  Parameter at;
+};
+
+template <FaceKind kind>
+struct Domain;
+
+/// The unit square. Children 0..3 keep the parent's orientation and hold its corners 0..3.
+template <>
+struct Domain<FaceKind::quad> {
+  static constexpr int corner_count = 4;
+  static constexpr std::array<std::array<double, 2>, 4> corners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+
+  static Parameter centre() { return {0.5, 0.5}; }
+  static bool contains(const Parameter& p) { return p.x() >= 0 && p.x() <= 1 && p.y() >= 0 && p.y() <= 1; }
+  /// The domain's nearest point (Euclidean; the domain is convex, so the projection brings no two points apart).
+  static Parameter nearest(const Parameter& p) { return p.cwiseMax(0.0).cwiseMin(1.0); }
+
+  /// d(child parameter) / d(parent parameter): parent = origin(child) + scale(child) * child parameter.
+  static double scale(int) { return 0.5; }
+  static Parameter to_parent(int child, const Parameter& p) {
+    return {0.5 * (p.x() + corners[static_cast<std::size_t>(child)][0]),
+            0.5 * (p.y() + corners[static_cast<std::size_t>(child)][1])};
+  }
+  /// Exact: doubling and subtracting 1 round nothing on [1/2, 1].
+  static ChildParameter to_child(const Parameter& p) {
+    const bool right = p.x() >= 0.5;
+    const bool upper = p.y() >= 0.5;
+    return {upper ? (right ? 2 : 3) : (right ? 1 : 0), {2 * p.x() - right, 2 * p.y() - upper}};
+  }
+};
+
+/// The triangle u, v >= 0, u + v <= 1. Children 0..2 hold the parent's corners and keep its orientation; child 3 is the
+/// middle one, turned by half a turn: its corner 0 is the midpoint of the parent's edge 1-2.
+template <>
+struct Domain<FaceKind::triangle> {
+  static constexpr int corner_count = 3;
+  static constexpr std::array<std::array<double, 2>, 3> corners{{{0, 0}, {1, 0}, {0, 1}}};
+
+  static Parameter centre() { return {1.0 / 3, 1.0 / 3}; }
+  static bool contains(const Parameter& p) { return p.x() >= 0 && p.y() >= 0 && p.x() + p.y() <= 1; }
+  static Parameter nearest(const Parameter& p) {
+    if (p.x() + p.y() > 1) {
+      const double along = std::min(1.0, std::max(0.0, 0.5 * (1 + p.x() - p.y())));
+      return {along, 1 - along};
+    }
+    return p.cwiseMax(0.0).cwiseMin(1.0);
+  }
+
+  static double scale(int child) { return child == 3 ? -0.5 : 0.5; }
+  static Parameter to_parent(int child, const Parameter& p) {
+    if (child == 3) return {0.5 * (1 - p.x()), 0.5 * (1 - p.y())};
+    return {0.5 * (p.x() + corners[static_cast<std::size_t>(child)][0]),
+            0.5 * (p.y() + corners[static_cast<std::size_t>(child)][1])};
+  }
+  static ChildParameter to_child(const Parameter& p) {
+    if (p.x() >= 0.5) return {1, {2 * p.x() - 1, 2 * p.y()}};
+    if (p.y() >= 0.5) return {2, {2 * p.x(), 2 * p.y() - 1}};
+    if (p.x() + p.y() <= 0.5) return {0, {2 * p.x(), 2 * p.y()}};
+    return {3, {1 - 2 * p.x(), 1 - 2 * p.y()}};
+  }
+};
+
+}  // namespace shaolin

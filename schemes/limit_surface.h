@@ -1,0 +1,40 @@
+#pragma once
+/// The limit surface of one control mesh under one scheme, type-erased: evaluation anywhere.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "control_mesh.h"
+#include "limit_sample.h"
+
+namespace shaolin {
+
+class LimitSurface {
+ public:
+  virtual ~LimitSurface() = default;
+
+  virtual int face_count() const = 0;
+  /// The number of values of `sub` for a face: 1, or the number of corners of an n-gon under Catmull-Clark.
+  virtual int sub_count(int face) const = 0;
+  /// True if a patch's domain is the triangle u + v <= 1, false for the unit square.
+  virtual bool triangular() const = 0;
+  /// False for holes and for faces at a boundary that is not interpolated.
+  virtual bool has_limit(int face) const = 0;
+
+  /// Position, normal and derivatives at a parameter; empty if the face has no limit surface. Exact to rounding
+  /// anywhere, however close to an irregular vertex: the patch is split until the parameter lies in a regular piece.
+  /// Throws InputError if face, sub, u or v is out of range. O(valence x log2(1 / distance to an irregular corner)).
+  virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
+
+  /// The control mesh that it was made from.
+  virtual const ControlMesh& control_mesh() const = 0;
+};
+
+/// The scheme a mesh asks for: its `t scheme` hint, else "loop" if all faces are triangles, else "catmark".
+std::string default_scheme(const ControlMesh& mesh);
+
+/// Builds the surface. `scheme` is "loop" or "catmark". Throws InputError for another name, or if Loop is given a face
+/// that is not a triangle. O(mesh size).
+std::unique_ptr<LimitSurface> make_limit_surface(ControlMesh mesh, const std::string& scheme);
+
+}  // namespace shaolin

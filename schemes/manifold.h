@@ -1,0 +1,40 @@
+#pragma once
+/// Cutting a control mesh into manifold pieces that a half-edge kernel can hold, with the sharpness that keeps the
+/// surface as OpenSubdiv defines it.
+#include <unordered_map>
+#include <vector>
+
+#include "control_mesh.h"
+
+namespace shaolin {
+
+/// Faces over cut vertices: every edge has at most two faces, in opposite directions, and every vertex one fan.
+///
+/// A non-manifold edge (more than two faces, two in the same direction, one face twice, or equal ends) is infinitely
+/// sharp; sharp edges separate what lies on their sides, so cutting there changes nothing. A non-manifold vertex is a
+/// corner, unless it has exactly two non-manifold edges, no boundary edge and more faces than edges (fins along a
+/// crease). Boundary and corner rules look at the input's edges and faces, not at the pieces'.
+struct ManifoldMesh {
+  std::vector<int> origin;                       ///< cut vertex -> input vertex
+  std::vector<int> face_offsets, face_vertices;  ///< the input's faces, over cut vertices (repeats kept)
+  std::vector<float> vertex_sharpness;           ///< per cut vertex; boundary corners and cuts included
+  std::vector<char> has_limit;  ///< per face: no hole, no uninterpolated boundary, three distinct corners
+  int cut_edges = 0;            ///< non-manifold edges of the input
+  int cut_vertices = 0;         ///< vertices that fell into several pieces
+
+  /// The sharpness of the edge between two cut vertices: the tag's, or infinite at a boundary or a cut.
+  float edge_sharpness(int a, int b) const {
+    const auto at = sharp_edges.find(edge_key(a, b));
+    return at == sharp_edges.end() ? 0 : at->second;
+  }
+  static std::uint64_t edge_key(int a, int b) {
+    const auto low = static_cast<std::uint32_t>(std::min(a, b)), high = static_cast<std::uint32_t>(std::max(a, b));
+    return static_cast<std::uint64_t>(high) << 32 | low;
+  }
+  std::unordered_map<std::uint64_t, float> sharp_edges;
+};
+
+/// O(size log size).
+ManifoldMesh cut_to_manifold(const ControlMesh& mesh);
+
+}  // namespace shaolin

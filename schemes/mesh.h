@@ -1,0 +1,126 @@
+#pragma once
+/// The mesh hierarchy of Mueller et al. 2003, section 5: an abstract mesh with its navigation; triangle and quad
+/// meshes; subdivision meshes (subdivision_mesh.h) derive from those. OpenMesh holds the half-edges.
+#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+#include <ranges>
+#include <vector>
+
+#include "manifold.h"
+#include "ring.h"
+#include "scheme.h"
+#include "vec3.h"
+
+namespace shaolin {
+
+/// A manifold mesh with sharpness. Vertices are cut vertices (see manifold.h), faces keep the input's numbers.
+class Mesh {
+ public:
+  virtual ~Mesh() = default;
+
+  /// The split that faces of this mesh take.
+  virtual FaceKind face_kind() const = 0;
+
+  int vertex_count() const { return static_cast<int>(points_.size()); }
+  int edge_count() const { return static_cast<int>(connectivity_.n_edges()); }
+  int face_count() const { return static_cast<int>(faces_.size()); }
+
+  auto vertices() const { return std::views::iota(0, vertex_count()); }
+  auto edges() const { return std::views::iota(0, edge_count()); }
+  auto faces() const { return std::views::iota(0, face_count()); }
+
+  const std::vector<Vec3>& points() const { return points_; }
+  const Vec3& point(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
+  float vertex_sharpness(int vertex) const { return vertex_sharpness_[static_cast<std::size_t>(vertex)]; }
+
+  /// An edge's two ends and its sharpness.
+  struct Edge {
+    int a, b;
+    float sharpness;
+  };
+  Edge edge(int edge) const;
+
+  /// A face's vertices in order (with the input's repeats).
+  const std::vector<int>& face(int face) const { return faces_[static_cast<std::size_t>(face)]; }
+
+  /// False for a face without three distinct vertices in a row: the half-edges leave it out, and so does refinement.
+  bool is_held(int face) const { return kernel_face_[static_cast<std::size_t>(face)] >= 0; }
+
+  /// False for holes, for faces at a boundary that is not interpolated, and for faces without an inside.
+  bool has_limit(int face) const { return has_limit_[static_cast<std::size_t>(face)] != 0; }
+
+  /// A face and a place in its vertices.
+  struct Corner {
+    int face, place;
+  };
+  /// One corner at a vertex; face -1 if the vertex has no face.
+  Corner corner_at(int vertex) const { return corner_at_[static_cast<std::size_t>(vertex)]; }
+
+  /// The ring of the vertex at a corner. It starts at the boundary if there is one. O(valence).
+  Ring ring(Corner corner) const;
+
+  /// A face with the rings of the vertices within radius - 1 faces of it. O(sum of the rings).
+  Neighbourhood neighbourhood(int face, int radius) const;
+
+ protected:
+  using HalfEdge = OpenMesh::HalfedgeHandle;
+
+  /// Throws InputError if a face does not suit the mesh.
+  Mesh(const ManifoldMesh& topology, std::vector<Vec3> points);
+
+  /// The number of the side that leaves a corner among sides between equal vertices; -1 if it is none.
+  int degenerate_side(Corner corner) const { return repeats_next(corner) ? side(corner) - edge_count() : -1; }
+  int degenerate_side_count() const { return degenerate_side_count_; }
+  const OpenMesh::PolyConnectivity& connectivity() const { return connectivity_; }
+  int side(Corner corner) const {
+    return sides_[static_cast<std::size_t>(corner.face)][static_cast<std::size_t>(corner.place)];
+  }
+  int input_face(OpenMesh::FaceHandle face) const { return input_face_[static_cast<std::size_t>(face.idx())]; }
+
+ private:
+  void build_half_edges();
+  void number_sides();
+  HalfEdge half_edge(Corner corner) const;
+  bool repeats_next(Corner corner) const { return side(corner) >= edge_count(); }
+  Corner next_clockwise(Corner corner) const;
+  Corner next_counter_clockwise(Corner corner) const;
+  FaceSides face_from(Corner corner) const;
+  float sharpness_of_side(Corner corner) const;
+  Corner corner_of(HalfEdge half_edge, int vertex) const;
+
+  OpenMesh::PolyConnectivity connectivity_;
+  std::vector<Vec3> points_;
+  std::vector<std::vector<int>> faces_,
+      sides_;                                  ///< per face: vertices, and edges (edge_count() on: between equal ones)
+  std::vector<int> kernel_face_, input_face_;  ///< input face <-> half-edge face; -1 where the kernel has none
+  std::vector<float> vertex_sharpness_, edge_sharpness_;
+  std::vector<char> has_limit_;
+  std::vector<Corner> corner_at_;
+  int degenerate_side_count_ = 0;
+};
+
+/// Triangles only.
+class TriangleMesh : public Mesh {
+ public:
+  FaceKind face_kind() const override { return FaceKind::triangle; }
+
+  /// The unit normal of the chord triangle over three limit points, along (b - a) x (c - a).
+  static Vec3 chord_normal(const std::vector<Vec3>& limit_points);
+
+ protected:
+  /// Throws InputError that names the first face that is no triangle.
+  TriangleMesh(const ManifoldMesh& topology, std::vector<Vec3> points);
+};
+
+/// Faces of any number of corners; quads after the first split.
+class QuadMesh : public Mesh {
+ public:
+  FaceKind face_kind() const override { return FaceKind::quad; }
+
+  /// The unit normal of the plane of section 8.2: the sum of d_i x d_(i+1) over the chord polygon's edges d_i.
+  static Vec3 chord_normal(const std::vector<Vec3>& limit_points);
+
+ protected:
+  QuadMesh(const ManifoldMesh& topology, std::vector<Vec3> points) : Mesh(topology, std::move(points)) {}
+};
+
+}  // namespace shaolin

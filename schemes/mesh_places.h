@@ -1,0 +1,23 @@
+#pragma once
+/// Where the elements of a control mesh stand in the file that they came from.
+#include <string>
+#include <vector>
+
+#include "control_mesh.h"
+
+namespace shaolin {
+
+/// One line number (from 1) for each element; an empty list where no lines are known.
+struct MeshPlaces {
+  std::string file;
+  std::vector<int> positions;
+  std::vector<int> faces;
+  std::vector<int> sharp_edges;
+  std::vector<int> sharp_vertices;
+  std::vector<int> holes;
+};
+
+/// check() whose messages and warnings carry file and line. A warning that the mesh has already is not repeated.
+void check(ControlMesh& mesh, const MeshPlaces& places);
+
+}  // namespace shaolin

@@ -1,0 +1,97 @@
+#pragma once
+/// Operations on the topology around a face: its reduction to what matters, and its refinement.
+#include <map>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "ring.h"
+#include "scheme.h"
+
+namespace shaolin {
+
+/// The place of corner k's own face in the corner's ring. (A face that repeats a vertex stands there more than once.)
+int place_of_face(const Neighbourhood& neighbourhood, std::size_t k);
+
+/// Opens the rings of the face's corners along infinitely sharp edges and keeps the sector that holds the face: what
+/// lies beyond does not influence its patch. A ring is left whole while semi-sharp edges still count for its rule; a
+/// sector that was cut out of three or more sharp edges gets an infinitely sharp vertex.
+void drop_beyond_creases(Neighbourhood& neighbourhood);
+
+/// Turns every closed ring of a corner so that the face comes first. (Open rings begin at their first edge.)
+void turn_to_face(Neighbourhood& neighbourhood);
+
+/// The neighbourhood with its vertices and faces numbered in the order of a fixed walk, so that equal topology gives
+/// equal numbers. `vertices[i]` is the old name of vertex i; corners come first. `key` spells everything out.
+struct CanonicalForm {
+  Neighbourhood neighbourhood;
+  std::vector<int> vertices;
+  std::vector<int> key;
+};
+CanonicalForm canonical_form(const Neighbourhood& neighbourhood);
+
+/// Where a vertex of the next level comes from.
+struct RefinedVertex {
+  enum class Kind { vertex, edge, face } kind;
+  int id;  ///< of the vertex, edge or face
+  auto operator<=>(const RefinedVertex&) const = default;
+};
+
+/// The topology of the next level around a face, and its neighbourhoods of the face's children.
+class Refinement {
+ public:
+  /// `parent` must outlive the refinement.
+  Refinement(const Neighbourhood& parent, FaceKind kind);
+
+  /// The number of children of the face: 4, or the number of corners of an n-gon.
+  int child_count() const;
+
+  /// The neighbourhood of child k, for patches of the given radius, with vertices named by index into vertices().
+  /// Children keep the face's orientation (see Domain); child k of an n-gon begins at the n-gon's corner k.
+  Neighbourhood child(int k, int radius);
+
+  const std::vector<RefinedVertex>& vertices() const { return vertices_; }
+
+ private:
+  int vertex(const RefinedVertex& from);
+  int from_vertex(int id) { return vertex({RefinedVertex::Kind::vertex, id}); }
+  int from_edge(int id) { return vertex({RefinedVertex::Kind::edge, id}); }
+  int from_face(int id) { return vertex({RefinedVertex::Kind::face, id}); }
+
+  /// Identifiers of the next level's edges and faces: half an edge, the edge inside a face that ends on a side (quads)
+  /// or runs along it (triangles), and the child at a corner (by the side that leaves it) or the middle one.
+  int half(int edge, int end) { return named(edge_ids_, {0, edge, end}); }
+  int inner(int face, int side) { return named(edge_ids_, {1, face, side}); }
+  using Names = std::map<std::tuple<int, int, int>, int>;
+  static int named(Names& names, std::tuple<int, int, int> name) {
+    return names.try_emplace(name, static_cast<int>(names.size())).first->second;
+  }
+
+  FaceSides child_face(int k);
+  FaceSides corner_face(const FaceSides& parent, std::size_t at, int first);
+  FaceSides middle_face(const FaceSides& parent, int first);
+
+  /// An edge as a spoke of a ring.
+  struct Place {
+    const Ring* ring;
+    std::size_t spoke;
+    const FaceSides *left, *right;  ///< null outside a boundary
+  };
+  Place place_of_edge(int edge) const;
+
+  Ring ring(int refined);
+  Ring ring_of_vertex(int v);
+  Ring ring_of_edge(int edge);
+  Ring ring_of_face(const FaceSides& face);
+  void add_side(Ring& ring, const FaceSides& face, std::size_t at);
+
+  const Neighbourhood& parent_;
+  FaceKind kind_;
+  std::map<int, const Ring*> rings_;
+  std::map<int, const FaceSides*> faces_;
+  std::map<RefinedVertex, int> numbers_;
+  std::vector<RefinedVertex> vertices_;
+  Names edge_ids_, face_ids_;
+};
+
+}  // namespace shaolin

@@ -1,0 +1,37 @@
+#pragma once
+/// A patch: the part of the limit surface that belongs to one face, as a self-contained value.
+#include <vector>
+
+#include "configuration.h"
+
+namespace shaolin {
+
+/// A configuration and its control points. The limit patch lies in the convex hull of the points (the masks of Loop and
+/// Catmull-Clark are convex combinations); splitting gives the children's patches, without any mesh.
+template <Scheme S>
+struct Patch {
+  using Regular = typename S::Regular;
+
+  const Configuration<S>* configuration = nullptr;
+  std::vector<Vec3> points;
+
+  /// Child k, in the order of Domain; child k of an n-gon is the quad at its corner k. O(points).
+  Patch child(int k) const {
+    const auto& split = configuration->child(k);
+    Patch result{split.configuration, std::vector<Vec3>(static_cast<std::size_t>(split.program.point_count()))};
+    split.program.run(points.data(), result.points.data());
+    return result;
+  }
+
+  bool is_regular() const { return configuration->layout().has_value(); }
+
+  /// The polynomial patch of a regular configuration.
+  Regular regular() const {
+    const auto& layout = *configuration->layout();
+    std::array<Vec3, Regular::spline_size> spline;
+    for (std::size_t i = 0; i < spline.size(); ++i) spline[i] = layout[i].of(points.data());
+    return Regular::from_spline(spline);
+  }
+};
+
+}  // namespace shaolin

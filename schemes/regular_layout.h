@@ -1,0 +1,43 @@
+#pragma once
+/// Finding the spline control points of a regular patch in its neighbourhood.
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "bezier_quad.h"
+#include "bezier_triangle.h"
+#include "neighbourhood.h"
+
+namespace shaolin {
+
+/// A spline control point as a small combination of the neighbourhood's points: one of them, or a phantom beyond a
+/// crease, so placed that the spline's smooth rules give the crease rules:
+/// on quads 2 p0 - p1 (p0 on the crease, p1 inside), and twice that at a corner; on triangles a + b - c, the vertex
+/// opposite of c across the sharp edge a-b. (Substitute them into the smooth masks: (1/8, 3/4, 1/8) comes out.)
+struct SplinePoint {
+  int count = 0;
+  std::array<int, 4> index{};
+  std::array<double, 4> weight{};
+
+  Vec3 of(const Vec3* points) const {
+    if (count == 1) return points[index[0]];
+    Vec3 sum = weight[0] * points[index[0]];
+    for (std::size_t i = 1; i < static_cast<std::size_t>(count); ++i) sum += weight[i] * points[index[i]];
+    return sum;
+  }
+};
+
+/// The spline points of a regular patch, in the order of Patch::from_spline; empty if the neighbourhood is irregular:
+/// every corner must be smooth and of regular valence, or lie on an infinitely sharp crease (a boundary) with half as
+/// many faces on this side, or (quads) be a corner of a single face. Takes the neighbourhood as canonical_form() has
+/// it: cut at creases, rings turned to the face.
+template <class Patch>
+std::optional<std::array<SplinePoint, Patch::spline_size>> regular_layout(const Neighbourhood& neighbourhood);
+
+template <>
+std::optional<std::array<SplinePoint, BezierQuad::spline_size>> regular_layout<BezierQuad>(const Neighbourhood&);
+template <>
+std::optional<std::array<SplinePoint, BezierTriangle::spline_size>> regular_layout<BezierTriangle>(
+    const Neighbourhood&);
+
+}  // namespace shaolin

@@ -1,0 +1,84 @@
+#pragma once
+/// LimitSurface for one scheme, and the choice of a scheme by name.
+#include <string>
+
+#include "catmull_clark.h"
+#include "errors.h"
+#include "limit_surface.h"
+#include "loop.h"
+#include "subdivision_mesh.h"
+
+namespace shaolin {
+
+/// The subdivision mesh of a control mesh with the configurations that its patches share.
+template <Scheme S>
+class SchemeSurface final : public LimitSurface {
+ public:
+  explicit SchemeSurface(ControlMesh control) : control_(supported(std::move(control))), mesh_(control_) {}
+
+  int face_count() const override { return control_.face_count(); }
+  int sub_count(int face) const override { return splits_by_corner(face) ? control_.face_size(face) : 1; }
+  bool triangular() const override { return S::face_kind == FaceKind::triangle; }
+  bool has_limit(int face) const override { return mesh_.has_limit(face); }
+  const ControlMesh& control_mesh() const override { return control_; }
+
+  std::optional<LimitSample> evaluate(const SurfaceParameter& at) const override {
+    check_range(at);
+    if (!has_limit(at.face)) return {};
+    return shaolin::evaluate(patch(at.face, at.sub), Parameter(at.u, at.v));
+  }
+
+  /// The patch of a face, or of an n-gon's corner.
+  Patch<S> patch(int face, int sub) const {
+    Patch<S> root = mesh_.patch(face, table_);
+    return splits_by_corner(face) ? root.child(sub) : root;
+  }
+
+  /// True for an n-gon of the quad split: its patches are those of its corners, half the size.
+  bool splits_by_corner(int face) const { return control_.face_size(face) != Domain<S::face_kind>::corner_count; }
+
+  const SubdivisionMesh<S>& mesh() const { return mesh_; }
+  ConfigurationTable<S>& table() const { return table_; }
+
+ private:
+  static ControlMesh supported(ControlMesh control) {
+    if (control.crease_method == CreaseMethod::chaikin)
+      throw InputError("the tag 't creasemethod ... chaikin' is not supported yet; 'normal' is");
+    if (control.triangle_subdivision == TriangleSubdivision::smooth)
+      throw InputError("the tag 't smoothtriangles ... smooth' is not supported yet; 'catmark' is");
+    return control;
+  }
+
+  void check_range(const SurfaceParameter& at) const {
+    if (at.face < 0 || at.face >= face_count())
+      throw InputError("face " + std::to_string(at.face) + " is out of range; expected 0 to " +
+                       std::to_string(face_count() - 1));
+    if (at.sub < 0 || at.sub >= sub_count(at.face))
+      throw InputError("sub " + std::to_string(at.sub) + " is out of range; face " + std::to_string(at.face) +
+                       " has sub 0 to " + std::to_string(sub_count(at.face) - 1));
+    if (!Domain<S::face_kind>::contains({at.u, at.v}))
+      throw InputError("(u, v) = (" + std::to_string(at.u) + ", " + std::to_string(at.v) +
+                       ") is out of range; expected " +
+                       (triangular() ? "u, v >= 0 and u + v <= 1" : "u and v in [0, 1]"));
+  }
+
+  ControlMesh control_;
+  SubdivisionMesh<S> mesh_;
+  mutable ConfigurationTable<S> table_;
+};
+
+/// A tag that carries a scheme to a generic function.
+template <Scheme S>
+struct SchemeType {
+  using Type = S;
+};
+
+/// Calls use(SchemeType<S>) for the built-in scheme of that name. Throws InputError for another.
+template <class Use>
+auto with_scheme(const std::string& name, Use use) {
+  if (name == Loop::name) return use(SchemeType<Loop>());
+  if (name == CatmullClark::name) return use(SchemeType<CatmullClark>());
+  throw InputError("unknown scheme '" + name + "'; expected loop or catmark");
+}
+
+}  // namespace shaolin

@@ -1,0 +1,76 @@
+#include "split_program.h"
+
+namespace shaolin {
+
+SplitProgram::Compiler::Compiler(const Neighbourhood& parent, FaceKind kind, SplitProgram& program)
+    : kind_(kind), program_(program) {
+  for (const Ring& ring : parent.rings) {
+    rings_.try_emplace(ring.vertex, &ring);
+    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id, &face);
+    for (std::size_t i = 0; i < ring.spokes.size(); ++i) edges_.try_emplace(ring.spokes[i].edge, Place{&ring, i});
+  }
+}
+
+int SplitProgram::Compiler::add_face(const FaceSides& face) {
+  const auto [at, is_new] = face_steps_.try_emplace(face.id, static_cast<int>(program_.face_steps_.size()));
+  if (is_new) {
+    program_.face_steps_.push_back(
+        {static_cast<int>(program_.indices_.size()), static_cast<int>(face.vertices.size())});
+    program_.indices_.insert(program_.indices_.end(), face.vertices.begin(), face.vertices.end());
+  }
+  return at->second;
+}
+
+void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexMask& mask) {
+  VertexStep step{vertex_transition(ring.sharpness, ring.spoke_sharpness()), mask, ring.vertex, {}, {}};
+  std::vector<int> faces;
+  if (kind_ == FaceKind::quad && ring.closed)
+    for (const FaceSides& face : ring.faces) faces.push_back(add_face(face));
+  std::vector<int>& indices = program_.indices_;
+  step.spokes = {static_cast<int>(indices.size()), static_cast<int>(ring.spokes.size())};
+  for (const Ring::Spoke& spoke : ring.spokes) indices.push_back(spoke.end);
+  step.faces = {static_cast<int>(indices.size()), static_cast<int>(faces.size())};
+  indices.insert(indices.end(), faces.begin(), faces.end());
+  program_.steps_.push_back({RefinedVertex::Kind::vertex, static_cast<int>(program_.vertex_steps_.size())});
+  program_.vertex_steps_.push_back(step);
+}
+
+int SplitProgram::Compiler::side(const FaceSides& face, std::size_t at) {
+  return kind_ == FaceKind::triangle ? face.vertices[(at + 2) % 3] : add_face(face);
+}
+
+void SplitProgram::Compiler::add_edge(int edge, const EdgeMask& mask) {
+  const auto [ring, spoke] = edges_.at(edge);
+  EdgeStep step{mask, edge_crease_share(ring->spokes[spoke].sharpness), ring->vertex, ring->spokes[spoke].end, 0, 0};
+  if (step.crease_share < 1) {
+    const FaceSides& right = ring->faces[(spoke + ring->faces.size() - 1) % ring->faces.size()];
+    step.left = side(ring->faces[spoke], 0);
+    step.right = side(right, right.vertices.size() - 1);
+  }
+  program_.steps_.push_back({RefinedVertex::Kind::edge, static_cast<int>(program_.edge_steps_.size())});
+  program_.edge_steps_.push_back(step);
+}
+
+void SplitProgram::run(const Vec3* parent, Vec3* child) const {
+  static thread_local std::vector<Vec3> face_points;
+  face_points.resize(face_steps_.size());
+  for (std::size_t i = 0; i < face_steps_.size(); ++i) face_points[i] = face_point(gather(parent, face_steps_[i]));
+  const Vec3* sides = sides_are_face_points_ ? face_points.data() : parent;
+
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const auto at = static_cast<std::size_t>(steps_[i].index);
+    if (steps_[i].kind == RefinedVertex::Kind::vertex) {
+      const VertexStep& step = vertex_steps_[at];
+      child[i] = vertex_point(step.rule, step.mask, parent[step.vertex], gather(parent, step.spokes),
+                              gather(face_points.data(), step.faces));
+    } else if (steps_[i].kind == RefinedVertex::Kind::edge) {
+      const EdgeStep& step = edge_steps_[at];
+      child[i] = edge_point(step.mask, step.crease_share, parent[step.a], parent[step.b], sides + step.left,
+                            sides + step.right);
+    } else {
+      child[i] = face_points[at];
+    }
+  }
+}
+
+}  // namespace shaolin

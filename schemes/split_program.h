@@ -1,0 +1,109 @@
+#pragma once
+/// How the control points of a child patch come from its parent's: masks and indices, compiled once per configuration.
+#include <vector>
+
+#include "neighbourhood.h"
+#include "point_rules.h"
+
+namespace shaolin {
+
+/// First the new face points that are needed (quad split), then every point of the child, in the child's order.
+class SplitProgram {
+ public:
+  /// Compiles the points `wanted` of the level below `parent`, whose vertices are numbered as the parent's points.
+  template <Scheme S>
+  static SplitProgram compile(const Neighbourhood& parent, const std::vector<RefinedVertex>& wanted);
+
+  int point_count() const { return static_cast<int>(steps_.size()); }
+
+  /// Writes point_count() points. O(point_count() x ring size).
+  void run(const Vec3* parent, Vec3* child) const;
+
+ private:
+  struct Span {
+    int begin = 0;
+    int count = 0;
+  };
+  struct VertexStep {
+    VertexTransition rule;
+    VertexMask mask;
+    int vertex;
+    Span spokes, faces;
+  };
+  struct EdgeStep {
+    EdgeMask mask;
+    float crease_share;
+    int a, b;
+    int left, right;  ///< new face points (quads) or opposite vertices (triangles)
+  };
+  struct Step {
+    RefinedVertex::Kind kind;
+    int index;  ///< into vertex_steps_, edge_steps_ or the new face points
+  };
+  class Compiler;
+
+  PointGather gather(const Vec3* points, const Span& span) const {
+    return {points, indices_.data() + span.begin, span.count};
+  }
+
+  bool sides_are_face_points_ = false;
+  std::vector<Span> face_steps_;
+  std::vector<VertexStep> vertex_steps_;
+  std::vector<EdgeStep> edge_steps_;
+  std::vector<Step> steps_;
+  std::vector<int> indices_;
+};
+
+/// Looks masks and rings up and writes the program.
+class SplitProgram::Compiler {
+ public:
+  Compiler(const Neighbourhood& parent, FaceKind kind, SplitProgram& program);
+
+  int add_face(const FaceSides& face);
+  const FaceSides& face(int id) const { return *faces_.at(id); }
+  const Ring& ring(int vertex) const { return *rings_.at(vertex); }
+  void add_vertex(const Ring& ring, const VertexMask& mask);
+  void add_edge(int edge, const EdgeMask& mask);
+
+ private:
+  /// What an edge's smooth mask reads beyond it, in the face whose side in place `at` the edge is.
+  int side(const FaceSides& face, std::size_t at);
+
+  /// An edge as a spoke of a ring.
+  struct Place {
+    const Ring* ring;
+    std::size_t spoke;
+  };
+
+  FaceKind kind_;
+  SplitProgram& program_;
+  std::map<int, const Ring*> rings_;
+  std::map<int, const FaceSides*> faces_;
+  std::map<int, Place> edges_;
+  std::map<int, int> face_steps_;
+};
+
+template <Scheme S>
+SplitProgram SplitProgram::compile(const Neighbourhood& parent, const std::vector<RefinedVertex>& wanted) {
+  SplitProgram program;
+  Compiler compiler(parent, S::face_kind, program);
+  program.sides_are_face_points_ = S::face_kind == FaceKind::quad;
+  for (const RefinedVertex& from : wanted) {
+    switch (from.kind) {
+      case RefinedVertex::Kind::vertex: {
+        const Ring& ring = compiler.ring(from.id);
+        compiler.add_vertex(ring, S::smooth_vertex(static_cast<int>(ring.spokes.size())));
+        break;
+      }
+      case RefinedVertex::Kind::edge:
+        compiler.add_edge(from.id, S::smooth_edge());
+        break;
+      case RefinedVertex::Kind::face:
+        program.steps_.push_back({from.kind, compiler.add_face(compiler.face(from.id))});
+        break;
+    }
+  }
+  return program;
+}
+
+}  // namespace shaolin

@@ -1,0 +1,220 @@
+#pragma once
+/// Subdivision meshes: global and local refinement, parent and child, limit points and normals, chord normals.
+#include <memory>
+#include <type_traits>
+
+#include "configuration.h"
+#include "evaluate.h"
+#include "mesh.h"
+#include "patch.h"
+
+namespace shaolin {
+
+/// A triangle or quad mesh under a scheme. refine() makes the whole next level; patch() and Patch::child() refine one
+/// face and leave its neighbours coarse. Both apply the same masks and sharpness rules (point_rules.h, sharpness.h) and
+/// give the same points, bit for bit.
+template <Scheme S>
+class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh> {
+  using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
+  static_assert(S::radius == 1, "masks of radius-1 schemes read the first ring only");
+
+ public:
+  /// Level 0. Throws InputError if the mesh does not suit the scheme. O(size log size).
+  explicit SubdivisionMesh(const ControlMesh& control)
+      : SubdivisionMesh(cut_to_manifold(control), control.positions, nullptr) {}
+
+  int level() const { return parent_ ? parent_->level() + 1 : 0; }
+
+  /// The next level, whole. The mesh must outlive it. Throws InputError where OpenMesh cannot hold the result: beside a
+  /// vertex of valence 2 a split triangle mesh has two edges between the same vertices. (Patches can.) O(size).
+  std::unique_ptr<SubdivisionMesh> refine() const;
+
+  /// The coarser mesh, null at level 0; and navigation between both.
+  const SubdivisionMesh* parent() const { return parent_; }
+  int child_count(int face) const {
+    if (!this->is_held(face)) return 0;
+    return S::face_kind == FaceKind::triangle ? 4 : static_cast<int>(this->face(face).size());
+  }
+  int child_face(int face, int k) const { return first_child_[static_cast<std::size_t>(face)] + k; }
+  int parent_face(int face) const { return parent_face_[static_cast<std::size_t>(face)]; }
+  int child_of_vertex(int vertex) const { return vertex; }
+  int child_of_edge(int edge) const { return this->vertex_count() + edge; }
+  int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }
+
+  /// The patch of a face as a value of its own. O(size of its neighbourhood).
+  Patch<S> patch(int face, ConfigurationTable<S>& table) const {
+    auto match = table.match(this->neighbourhood(face, S::radius));
+    Patch<S> result{match.configuration, {}};
+    result.points.reserve(match.vertices.size());
+    for (const int vertex : match.vertices) result.points.push_back(this->point(vertex));
+    return result;
+  }
+
+  /// Limit position and normal at corner k of a face, seen from that face.
+  LimitSample limit(int face, int k, ConfigurationTable<S>& table) const {
+    Patch<S> patch = this->patch(face, table);
+    for (int corner = k;;) {
+      if (std::optional<LimitSample> limit = evaluate_corner(patch, corner)) return *limit;
+      const bool splits_by_corner = patch.configuration->corner_count() != Domain<S::face_kind>::corner_count;
+      patch = patch.child(corner);
+      if (splits_by_corner) corner = 0;
+    }
+  }
+
+  /// The unit normal of the plane through a face's limit points (quads: section 8.2 of the paper).
+  Vec3 chord_normal(int face, ConfigurationTable<S>& table) const {
+    std::vector<Vec3> limit_points;
+    for (int k = 0; k < static_cast<int>(this->face(face).size()); ++k)
+      limit_points.push_back(limit(face, k, table).position);
+    return Base::chord_normal(limit_points);
+  }
+
+ private:
+  SubdivisionMesh(const ManifoldMesh& topology, const std::vector<Vec3>& points, const SubdivisionMesh* parent)
+      : Base(topology, parent ? points : of_cut_vertices(topology, points)), parent_(parent) {
+    int next = 0;
+    for (const int f : this->faces()) {
+      first_child_.push_back(next);
+      next += child_count(f);
+    }
+  }
+
+  static std::vector<Vec3> of_cut_vertices(const ManifoldMesh& topology, const std::vector<Vec3>& points) {
+    std::vector<Vec3> result;
+    for (const int origin : topology.origin) result.push_back(points[static_cast<std::size_t>(origin)]);
+    return result;
+  }
+
+  int child_of_side(int face, int place) const;
+  std::vector<Vec3> refined_points() const;
+  ManifoldMesh refined_topology() const;
+  void add_sharpness(ManifoldMesh& next) const;
+
+  const SubdivisionMesh* parent_;
+  std::vector<int> first_child_, parent_face_;
+};
+
+/// The new vertex on a face's side; sides between equal vertices have theirs behind all others.
+template <Scheme S>
+int SubdivisionMesh<S>::child_of_side(int face, int place) const {
+  if (const int degenerate = this->degenerate_side({face, place}); degenerate >= 0)
+    return child_of_face(this->face_count()) + degenerate;
+  return child_of_edge(this->side({face, place}));
+}
+
+template <Scheme S>
+std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
+  std::vector<Vec3> face_points(static_cast<std::size_t>(this->face_count()));
+  for (const int f : this->faces()) {
+    const std::vector<int>& v = this->face(f);
+    face_points[static_cast<std::size_t>(f)] =
+        face_point({this->points().data(), v.data(), static_cast<int>(v.size())});
+  }
+
+  std::vector<Vec3> result(static_cast<std::size_t>(child_of_face(this->face_count()) + this->degenerate_side_count()));
+  for (const int v : this->vertices()) {
+    result[static_cast<std::size_t>(v)] = this->point(v);
+    if (this->corner_at(v).face < 0) continue;
+    const Ring ring = this->ring(this->corner_at(v));
+    std::vector<int> ends, faces;
+    for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
+    for (const FaceSides& face : ring.faces) faces.push_back(face.id);
+    const int n = static_cast<int>(ends.size());
+    result[static_cast<std::size_t>(v)] =
+        vertex_point(vertex_transition(ring.sharpness, ring.spoke_sharpness()), S::smooth_vertex(n), this->point(v),
+                     {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
+  }
+
+  for (const int f : this->faces()) {
+    if (!this->is_held(f)) continue;
+    if (S::face_kind == FaceKind::quad)
+      result[static_cast<std::size_t>(child_of_face(f))] = face_points[static_cast<std::size_t>(f)];
+    for (int i = 0; i < static_cast<int>(this->face(f).size()); ++i)
+      if (this->degenerate_side({f, i}) >= 0)
+        result[static_cast<std::size_t>(child_of_side(f, i))] = this->point(this->face(f)[static_cast<std::size_t>(i)]);
+  }
+
+  for (const int e : this->edges()) {
+    const auto edge = this->edge(e);
+    const auto half = this->connectivity().halfedge_handle(OpenMesh::EdgeHandle(e), 0);
+    const auto side = [&](OpenMesh::HalfedgeHandle h) -> const Vec3* {
+      const auto handle = this->connectivity().face_handle(h);
+      if (!handle.is_valid()) return nullptr;
+      if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(this->input_face(handle))];
+      return &this->point(this->connectivity().to_vertex_handle(this->connectivity().next_halfedge_handle(h)).idx());
+    };
+    result[static_cast<std::size_t>(child_of_edge(e))] =
+        edge_point(S::smooth_edge(), edge_crease_share(edge.sharpness), this->point(edge.a), this->point(edge.b),
+                   side(half), side(this->connectivity().opposite_halfedge_handle(half)));
+  }
+  return result;
+}
+
+template <Scheme S>
+ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
+  ManifoldMesh next;
+  next.face_offsets = {0};
+  const auto add = [&](int face, std::initializer_list<int> corners) {
+    next.face_vertices.insert(next.face_vertices.end(), corners);
+    next.face_offsets.push_back(static_cast<int>(next.face_vertices.size()));
+    next.has_limit.push_back(this->has_limit(face));
+  };
+  for (const int f : this->faces()) {
+    if (!this->is_held(f)) continue;
+    const std::vector<int>& v = this->face(f);
+    const int n = static_cast<int>(v.size());
+    std::vector<int> side;
+    for (int i = 0; i < n; ++i) side.push_back(child_of_side(f, i));
+    if (S::face_kind == FaceKind::triangle) {
+      add(f, {v[0], side[0], side[2]});
+      add(f, {side[0], v[1], side[1]});
+      add(f, {side[2], side[1], v[2]});
+      add(f, {side[1], side[2], side[0]});
+      continue;
+    }
+    const int centre = child_of_face(f);
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const int before = side[(k + v.size() - 1) % v.size()];
+      std::array<int, 4> quad{v[k], side[k], centre, before};
+      // Children of a quad keep its orientation, as Domain<quad> says.
+      if (n == 4) std::rotate(quad.begin(), quad.begin() + static_cast<std::ptrdiff_t>((4 - k) % 4), quad.end());
+      add(f, {quad[0], quad[1], quad[2], quad[3]});
+    }
+  }
+  add_sharpness(next);
+  return next;
+}
+
+template <Scheme S>
+void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
+  const int edge_points = child_of_edge(0), face_points = child_of_face(0), rest = child_of_face(this->face_count());
+  next.vertex_sharpness.assign(static_cast<std::size_t>(rest + this->degenerate_side_count()), 0);
+  for (const int v : this->vertices())
+    next.vertex_sharpness[static_cast<std::size_t>(v)] = decayed(this->vertex_sharpness(v));
+  const auto set = [&](int a, int b, float sharpness) {
+    if (is_sharp(sharpness)) next.sharp_edges[ManifoldMesh::edge_key(a, b)] = sharpness;
+  };
+  for (int e = 0; e < face_points - edge_points; ++e) {
+    const auto edge = this->edge(e);
+    set(edge.a, child_of_edge(e), decayed(edge.sharpness));
+    set(edge.b, child_of_edge(e), decayed(edge.sharpness));
+  }
+  // An edge between equal vertices is a point: its new vertex stays there, and both its halves are sharp.
+  for (const int f : this->faces())
+    for (int i = 0; this->is_held(f) && i < static_cast<int>(this->face(f).size()); ++i)
+      if (this->degenerate_side({f, i}) >= 0) {
+        const int middle = child_of_side(f, i);
+        next.vertex_sharpness[static_cast<std::size_t>(middle)] = infinite_sharpness;
+        set(this->face(f)[static_cast<std::size_t>(i)], middle, infinite_sharpness);
+      }
+}
+
+template <Scheme S>
+std::unique_ptr<SubdivisionMesh<S>> SubdivisionMesh<S>::refine() const {
+  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this));
+  for (const int f : this->faces())
+    for (int k = 0; k < child_count(f); ++k) next->parent_face_.push_back(f);
+  return next;
+}
+
+}  // namespace shaolin
