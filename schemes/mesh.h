@@ -2,7 +2,6 @@
 /// The mesh hierarchy of Mueller et al. 2003, section 5: an abstract mesh with its navigation; triangle and quad
 /// meshes; subdivision meshes (subdivision_mesh.h) derive from those. OpenMesh holds the half-edges.
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
-#include <ranges>
 #include <vector>
 
 #include "manifold.h"
@@ -11,6 +10,23 @@
 #include "vec3.h"
 
 namespace shaolin {
+
+/// The indices 0, 1, ... count - 1, to iterate over. (std::views::iota, but for Clang 14, which cannot compile GCC 12's.)
+struct IndexRange {
+  struct Iterator {
+    int index;
+    int operator*() const { return index; }
+    Iterator& operator++() {
+      ++index;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+  };
+  int count;
+
+  Iterator begin() const { return {0}; }
+  Iterator end() const { return {count}; }
+};
 
 /// A manifold mesh with sharpness. Vertices are cut vertices (see manifold.h), faces keep the input's numbers.
 class Mesh {
@@ -24,9 +40,9 @@ class Mesh {
   int edge_count() const { return static_cast<int>(connectivity_.n_edges()); }
   int face_count() const { return static_cast<int>(faces_.size()); }
 
-  auto vertices() const { return std::views::iota(0, vertex_count()); }
-  auto edges() const { return std::views::iota(0, edge_count()); }
-  auto faces() const { return std::views::iota(0, face_count()); }
+  IndexRange vertices() const { return {vertex_count()}; }
+  IndexRange edges() const { return {edge_count()}; }
+  IndexRange faces() const { return {face_count()}; }
 
   const std::vector<Vec3>& points() const { return points_; }
   const Vec3& point(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }

@@ -1,0 +1,100 @@
+// Rays aimed exactly at what patches share: vertices, edges, extraordinary points. None may slip through.
+#include "tests/catch.h"
+#include "tests/intersect/aimed_rays.h"
+
+namespace shaolin {
+
+namespace {
+
+struct Aim {
+  int rays = 0, lost = 0, beyond = 0, faults = 0;
+  std::string first_fault;
+
+  void shoot(const Scene& scene, const SurfaceParameter& at, const Vec3& direction, double distance, double diagonal) {
+    const Vec3 target = scene.surface().evaluate(at)->position;
+    const Ray ray = ray_at(target, direction, distance);
+    const std::optional<Hit> hit = scene.intersect(ray);
+    ++rays;
+    std::string fault;
+    if (!hit) {
+      ++lost;
+      fault = "lost";
+    } else if (hit->t > distance + 1e-12 * (distance + diagonal)) {
+      ++beyond;
+      fault = "beyond by " + std::to_string((hit->t - distance) / diagonal);
+    } else {
+      fault = fault_of(scene, ray, *hit, diagonal);
+      faults += !fault.empty();
+    }
+    if (!fault.empty() && first_fault.empty()) {
+      std::ostringstream text;
+      text.precision(17);
+      text << fault << ": face " << at.face << " sub " << at.sub << " u " << at.u << " v " << at.v << " direction "
+           << direction.transpose() << " distance " << distance;
+      first_fault = text.str();
+    }
+  }
+
+  void check() const {
+    INFO(first_fault);
+    CAPTURE(rays, lost, beyond, faults);
+    CHECK(lost == 0);
+    CHECK(beyond == 0);
+    CHECK(faults == 0);
+  }
+};
+
+/// Directions that go wrong first: along the axes, along the normal, within the tangent plane, then anywhere.
+std::vector<Vec3> directions_at(const LimitSample& sample, Random& random, int more) {
+  std::vector<Vec3> result{Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(), -sample.normal};
+  result.push_back(sample.normal.cross(random.direction()).normalized());
+  for (int i = 0; i < more; ++i) result.push_back(random.direction());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin]") {
+  for (const Model& model : all_models()) {
+    CAPTURE(model.name, model.scheme);
+    const Scene scene(model.mesh, model.scheme);
+    const double diagonal = model.mesh.diagonal();
+    const LimitSurface& surface = scene.surface();
+    Random random(7);
+    Aim aim;
+    const int stride = 1 + surface.face_count() / 300;
+    for_each_patch(surface, [&](int face, int sub) {
+      if (face % stride != 0) return;
+      for (const auto& corner : domain_corners(surface)) {
+        const SurfaceParameter at{face, sub, corner[0], corner[1]};
+        for (const Vec3& d : directions_at(*surface.evaluate(at), random, 3))
+          aim.shoot(scene, at, d, diagonal * random.uniform(0.5, 3), diagonal);
+      }
+    });
+    aim.check();
+  }
+}
+
+TEST_CASE("No ray aimed at a point of an edge is lost", "[intersect][shaolin]") {
+  for (const Model& model : all_models()) {
+    CAPTURE(model.name, model.scheme);
+    const Scene scene(model.mesh, model.scheme);
+    const double diagonal = model.mesh.diagonal();
+    const LimitSurface& surface = scene.surface();
+    Random random(8);
+    Aim aim;
+    const int stride = 1 + surface.face_count() / 300;
+    for_each_patch(surface, [&](int face, int sub) {
+      if (face % stride != 0) return;
+      for (std::size_t k = 0; k < domain_corners(surface).size(); ++k)
+        for (const double along : {0.5, random.uniform(), 1e-3 * random.uniform(), 1e-9}) {
+          const SurfaceParameter at = on_side(surface, face, sub, k, along);
+          for (const Vec3& d : directions_at(*surface.evaluate(at), random, 1))
+            aim.shoot(scene, at, d, diagonal * random.uniform(0.5, 3), diagonal);
+        }
+    });
+    aim.check();
+  }
+}
+
+}  // namespace shaolin

@@ -1,0 +1,181 @@
+/// `shaolin render`: the files that it writes, and what is in them.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "schemes/vec3.h"
+#include "tests/catch.h"
+#include "tests/tools/cli_run.h"
+
+namespace shaolin::test {
+namespace {
+
+constexpr std::uint32_t none = 4294967295u;
+
+/// An EXR file's channels, whatever they are: each value in four bytes, as FLOAT or UINT.
+struct ExrImage {
+  explicit ExrImage(const std::filesystem::path& file) {
+    Imf::InputFile input(file.c_str());
+    const auto window = input.header().dataWindow();
+    width = window.max.x - window.min.x + 1;
+    height = window.max.y - window.min.y + 1;
+    Imf::FrameBuffer frame_buffer;
+    const Imf::ChannelList& list = input.header().channels();
+    for (auto channel = list.begin(); channel != list.end(); ++channel) {
+      types[channel.name()] = channel.channel().type;
+      auto& values = channels[channel.name()];
+      values.resize(static_cast<std::size_t>(width) * height);
+      frame_buffer.insert(channel.name(), Imf::Slice(channel.channel().type, reinterpret_cast<char*>(values.data()), 4,
+                                                     4 * static_cast<std::size_t>(width)));
+    }
+    input.setFrameBuffer(frame_buffer);
+    input.readPixels(window.min.y, window.max.y);
+  }
+
+  std::uint32_t id(const std::string& channel, std::size_t pixel) const { return channels.at(channel).at(pixel); }
+  float value(const std::string& channel, std::size_t pixel) const {
+    float number;
+    std::memcpy(&number, &channels.at(channel).at(pixel), sizeof(number));
+    return number;
+  }
+  Vec3 vector(const std::string& layer, std::size_t pixel) const {
+    return {value(layer + ".X", pixel), value(layer + ".Y", pixel), value(layer + ".Z", pixel)};
+  }
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
+
+  int width, height;
+  std::map<std::string, Imf::PixelType> types;
+  std::map<std::string, std::vector<std::uint32_t>> channels;
+};
+
+/// Width and height of a PNG file, by its first chunk.
+std::pair<int, int> png_size(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  REQUIRE(bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+  const auto number = [&bytes](std::size_t at) {
+    int value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+}  // namespace
+
+TEST_CASE("render writes all files, with all channels", "[tools][cli]") {
+  const Folder folder;
+  const Outcome outcome =
+      folder.run({"render", data_file("cube_creases.obj"), "-o", folder / "out.exr", "--png", folder / "out.png",
+                  "--png-level", folder / "level.png", "--size", "96x64", "--camera", "2,2.5,6,0,0,0,35"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  CHECK(folder.list() == std::set<std::string>{"level.png", "out.exr", "out.png"});
+  CHECK(png_size(folder / "out.png") == std::pair(96, 64));
+  const auto [level_width, level_height] = png_size(folder / "level.png");
+  CHECK((level_width > 96 && level_height >= 64));  // the legend stands beside the image
+
+  const ExrImage image(folder / "out.exr");
+  CHECK((image.width == 96 && image.height == 64));
+  std::map<std::string, Imf::PixelType> types;
+  for (const char* name : {"R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "uv.U", "uv.V"})
+    types[name] = Imf::FLOAT;
+  types["face"] = types["level"] = Imf::UINT;
+  CHECK(image.types == types);
+}
+
+TEST_CASE("render's channels hold the hits", "[tools][cli]") {
+  const Folder folder;
+  const Vec3 eye(2, 2.5, 6);
+  REQUIRE(folder
+              .run({"render", data_file("cube_creases.obj"), "-o", folder / "out.exr", "--size", "96x64", "--camera",
+                    "2,2.5,6,0,0,0,35"})
+              .status == 0);
+  const ExrImage image(folder / "out.exr");
+  std::size_t hits = 0, wrong = 0;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (image.id("face", i) == none) {
+      wrong += image.value("A", i) != 0 || image.id("level", i) != none || !std::isinf(image.value("Z", i));
+      continue;
+    }
+    ++hits;
+    const Vec3 position = image.vector("P", i), normal = image.vector("N", i);
+    const float u = image.value("uv.U", i), v = image.value("uv.V", i);
+    wrong += image.value("A", i) != 1 || image.id("face", i) > 5 || image.id("level", i) > 100;
+    wrong += std::abs((position - eye).norm() - image.value("Z", i)) > 1e-5;
+    wrong += std::abs(normal.norm() - 1) > 1e-6 || normal.dot(position - eye) > 1e-5;  // the cube's faces look outward
+    wrong += !(0 <= u && u <= 1 && 0 <= v && v <= 1) || !(image.value("R", i) > 0);
+  }
+  CHECK(wrong == 0);
+  CHECK((hits > image.size() / 20 && hits < image.size() / 2));
+}
+
+TEST_CASE("render's statistics add up", "[tools][cli]") {
+  const Folder folder;
+  REQUIRE(folder
+              .run({"render", data_file("cube_creases.obj"), "-o", folder / "out.exr", "--stats", folder / "stats.json",
+                    "--size", "96x64"})
+              .status == 0);
+  const ExrImage image(folder / "out.exr");
+  std::size_t hits = 0;
+  for (const std::uint32_t face : image.channels.at("face")) hits += face != none;
+  const auto stats = nlohmann::json::parse(read_file(folder / "stats.json"));
+  CHECK(stats["image"]["width"] == 96);
+  CHECK(stats["image"]["height"] == 64);
+  CHECK(stats["image"]["pixels_hit"] == hits);
+  CHECK(stats["scheme"] == "catmark");
+  CHECK(stats["threads"] >= 1);
+  CHECK(stats["peak_memory_bytes"] > 1000000);
+  const auto& seconds = stats["seconds"];
+  double sum = 0;
+  for (const char* part : {"load", "build", "render", "write"}) sum += seconds[part].get<double>();
+  CHECK(seconds["total"].get<double>() == Approx(sum));
+  const auto& counts = stats["statistics"];
+  CHECK(counts["rays"] >= image.size());
+  CHECK(counts["hits"] >= hits);
+  CHECK(counts["faces_never_touched"].get<int>() + counts["faces_touched"].get<int>() == counts["faces"].get<int>());
+  for (const char* name : {"patches_split", "hull_tests", "cells", "newton_steps", "bytes"})
+    CHECK(counts.contains(name));
+}
+
+TEST_CASE("render's pixels do not depend on the number of threads", "[tools][cli]") {
+  const Folder folder;
+  const auto render = [&](const std::string& name, const std::string& threads) {
+    REQUIRE(folder
+                .run({"render", data_file("torus.obj"), "-o", folder / name, "--png-level", folder / (name + ".png"),
+                      "--size", "150x100", "--threads", threads})
+                .status == 0);
+    return ExrImage(folder / name);
+  };
+  const ExrImage one = render("1.exr", "1"), four = render("4.exr", "4");
+  CHECK(one.channels == four.channels);
+  CHECK(read_file(folder / "1.exr.png") == read_file(folder / "4.exr.png"));
+}
+
+TEST_CASE("the default camera frames the model", "[tools][cli]") {
+  const Folder folder;
+  for (const std::string size : {"100x100", "160x60", "60x160"}) {
+    CAPTURE(size);
+    REQUIRE(folder.run({"render", data_file("torus.obj"), "-o", folder / "out.exr", "--size", size}).status == 0);
+    const ExrImage image(folder / "out.exr");
+    std::size_t hits = 0, border_hits = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const bool hit = image.id("face", static_cast<std::size_t>(y) * image.width + x) != none;
+        hits += hit;
+        border_hits += hit && (x == 0 || y == 0 || x == image.width - 1 || y == image.height - 1);
+      }
+    }
+    CHECK(border_hits == 0);
+    const int side = std::min(image.width, image.height);
+    CHECK(hits > static_cast<std::size_t>(side) * side / 10);
+  }
+}
+
+}  // namespace shaolin::test

@@ -1,0 +1,500 @@
+// The oracle against brute force: whole meshes refined by OpenSubdiv's Far, its masks of regular limit points, Bfr
+// itself on faces that are n-gons, and finite differences.
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "schemes/limit_surface.h"
+#include "schemes/obj.h"
+#include "tests/catch.h"
+#include "tools/validate/oracle.h"
+
+namespace {
+
+using namespace shaolin;
+namespace Far = OpenSubdiv::Far;
+namespace Bfr = OpenSubdiv::Bfr;
+namespace Sdc = OpenSubdiv::Sdc;
+
+struct Model {
+  std::string name, scheme;
+  ControlMesh mesh;
+};
+
+ControlMesh mesh_of(std::vector<Vec3> points, const std::vector<std::vector<int>>& faces) {
+  ControlMesh mesh;
+  mesh.positions = std::move(points);
+  // No symmetry: a wrong weight must not cancel.
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const double k = static_cast<double>(i);
+    mesh.positions[i] += 0.13 * Vec3(std::sin(3 * k + 1), std::sin(5 * k + 2), std::sin(7 * k + 3));
+  }
+  for (const auto& face : faces) mesh.add_face(face);
+  return mesh;
+}
+
+ControlMesh cube() {
+  return mesh_of({{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+                 {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
+}
+
+ControlMesh tetrahedron() {
+  return mesh_of({{-1, -1, 1}, {1, -1, -1}, {1, 1, 1}, {-1, 1, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}});
+}
+
+/// A prism over an n-gon: two n-gons, n quads.
+ControlMesh prism(int n) {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces(2);
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    points.emplace_back(std::cos(angle), std::sin(angle), -1);
+    points.emplace_back(std::cos(angle), std::sin(angle), 1);
+    faces[0].insert(faces[0].begin(), 2 * i);
+    faces[1].push_back(2 * i + 1);
+    const int j = (i + 1) % n;
+    faces.push_back({2 * i, 2 * j, 2 * j + 1, 2 * i + 1});
+  }
+  return mesh_of(points, faces);
+}
+
+/// A double pyramid: two poles of valence n; triangles.
+ControlMesh pyramids(int n) {
+  std::vector<Vec3> points{{0, 0, 1.5}, {0, 0, -1.5}};
+  std::vector<std::vector<int>> faces;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    points.emplace_back(2 * std::cos(angle), 2 * std::sin(angle), 0);
+    const int a = 2 + i, b = 2 + (i + 1) % n;
+    faces.push_back({a, b, 0});
+    faces.push_back({b, a, 1});
+  }
+  return mesh_of(points, faces);
+}
+
+/// An open sheet of m x n quads, or of twice as many triangles.
+ControlMesh sheet(int m, int n, bool triangles) {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> faces;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= m; ++i) points.emplace_back(i, j, 0.3 * i * j);
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < m; ++i) {
+      const int a = j * (m + 1) + i, b = a + 1, c = b + m + 1, d = a + m + 1;
+      if (triangles) {
+        faces.push_back({a, b, c});
+        faces.push_back({c, d, a});
+      } else {
+        faces.push_back({a, b, c, d});
+      }
+    }
+  }
+  return mesh_of(points, faces);
+}
+
+/// Interior valence 2: the middle vertex of two quads that share two edges, inside a ring of quads.
+ControlMesh valence_two() {
+  return mesh_of({{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {2, 0, 0.3}, {0, 2, 0}, {-2, 0, 0.3}, {0, -2, 0}},
+                 {{0, 1, 2, 3}, {0, 3, 4, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}});
+}
+
+ControlMesh with_edges(ControlMesh mesh, std::vector<SharpEdge> edges, CreaseMethod method = CreaseMethod::uniform) {
+  mesh.sharp_edges = std::move(edges);
+  mesh.crease_method = method;
+  return mesh;
+}
+
+ControlMesh with_boundary(ControlMesh mesh, BoundaryInterpolation boundary) {
+  mesh.boundary = boundary;
+  return mesh;
+}
+
+/// Semi-sharp tags stay below the levels that brute force refines.
+std::vector<Model> models() {
+  std::vector<Model> all;
+  for (const std::string scheme : {"catmark", "loop"}) {
+    const bool loop = scheme == "loop";
+    const auto add = [&](const std::string& name, ControlMesh mesh) {
+      all.push_back({scheme + " " + name, scheme, std::move(mesh)});
+    };
+    const ControlMesh body = loop ? pyramids(5) : cube();
+    const std::pair<int, int> e1 = loop ? std::pair(0, 2) : std::pair(0, 1), e2 = loop ? std::pair(2, 3) : std::pair(1, 2),
+                              e3 = loop ? std::pair(0, 4) : std::pair(1, 5);
+    add("smooth", body);
+    add("tetrahedron", tetrahedron());
+    add("dart", with_edges(body, {{e1.first, e1.second, 10}}));
+    add("crease", with_edges(body, {{e1.first, e1.second, 10}, {e2.first, e2.second, 10}}));
+    add("corner", with_edges(body, {{e1.first, e1.second, 10}, {e2.first, e2.second, 10}, {e3.first, e3.second, 10}}));
+    add("semi-sharp", with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 10}}));
+    add("Chaikin", with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 3}},
+                              CreaseMethod::chaikin));
+    ControlMesh vertices = body;
+    vertices.sharp_vertices = {{0, 10}, {1, 2.3f}, {3, 0.4f}};
+    add("sharp vertices", vertices);
+    add("edge only", with_boundary(sheet(2, 3, loop), BoundaryInterpolation::edge_only));
+    add("edge and corner", sheet(2, 3, loop));
+    add("no boundary", with_boundary(sheet(4, 4, loop), BoundaryInterpolation::none));
+    if (loop) continue;
+    add("prism", with_edges(prism(5), {{0, 1, 10}, {1, 3, 1.7f}}));
+    ControlMesh smooth_triangles = pyramids(5);
+    smooth_triangles.triangle_subdivision = TriangleSubdivision::smooth;
+    add("smooth triangles", smooth_triangles);
+    add("valence 2", valence_two());
+  }
+  return all;
+}
+
+Sdc::SchemeType osd_scheme(const std::string& scheme) {
+  return scheme == "loop" ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK;
+}
+
+std::unique_ptr<Far::TopologyRefiner> osd_refiner(const ControlMesh& mesh, const std::string& scheme) {
+  std::vector<int> sizes, edges, corners;
+  std::vector<float> edge_weights, corner_weights;
+  for (int f = 0; f < mesh.face_count(); ++f) sizes.push_back(mesh.face_size(f));
+  for (const SharpEdge& e : mesh.sharp_edges) {
+    edges.insert(edges.end(), {e.a, e.b});
+    edge_weights.push_back(e.sharpness);
+  }
+  for (const SharpVertex& v : mesh.sharp_vertices) corners.push_back(v.vertex), corner_weights.push_back(v.sharpness);
+  Far::TopologyDescriptor d;
+  d.numVertices = static_cast<int>(mesh.positions.size());
+  d.numFaces = mesh.face_count();
+  d.numVertsPerFace = sizes.data();
+  d.vertIndicesPerFace = mesh.face_vertices.data();
+  d.numCreases = static_cast<int>(edge_weights.size());
+  d.creaseVertexIndexPairs = edges.data();
+  d.creaseWeights = edge_weights.data();
+  d.numCorners = static_cast<int>(corners.size());
+  d.cornerVertexIndices = corners.data();
+  d.cornerWeights = corner_weights.data();
+  Sdc::Options options;
+  constexpr Sdc::Options::VtxBoundaryInterpolation boundary[] = {
+      Sdc::Options::VTX_BOUNDARY_NONE, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, Sdc::Options::VTX_BOUNDARY_EDGE_ONLY};
+  options.SetVtxBoundaryInterpolation(boundary[static_cast<int>(mesh.boundary)]);
+  if (mesh.crease_method == CreaseMethod::chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
+  if (mesh.triangle_subdivision == TriangleSubdivision::smooth) {
+    options.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
+  }
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(d, Factory::Options(osd_scheme(scheme), options)));
+}
+
+struct FarPoint {
+  Vec3 p = Vec3::Zero();
+  void Clear() { p.setZero(); }
+  void AddWithWeight(const FarPoint& other, double weight) { p += weight * other.p; }
+};
+
+/// A face of some level in the parameter square of a piece.
+struct Cell {
+  int face = 0, sub = 0;
+  double u = 0, v = 0, size = 1;  // size < 0: turned by half a turn (a triangle's middle child)
+};
+
+/// Refines the whole mesh and calls visit(parameter, limit position) for the grid of 2^levels steps of every piece,
+/// without the pieces' corners: there the masks may be wrong.
+void brute_force(const Model& model, int levels, const std::function<void(const SurfaceParameter&, const Vec3&)>& visit) {
+  const auto refiner = osd_refiner(model.mesh, model.scheme);
+  Far::TopologyRefiner::UniformOptions uniform(levels);
+  uniform.fullTopologyInLastLevel = true;
+  refiner->RefineUniform(uniform);
+  std::vector<FarPoint> points(model.mesh.positions.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].p = model.mesh.positions[i];
+  std::vector<Cell> cells(static_cast<std::size_t>(model.mesh.face_count()));
+  for (int f = 0; f < model.mesh.face_count(); ++f) cells[f].face = f;
+  const bool loop = model.scheme == "loop";
+  for (int level = 0; level < levels; ++level) {
+    const Far::TopologyLevel& coarse = refiner->GetLevel(level);
+    const Far::TopologyLevel& fine = refiner->GetLevel(level + 1);
+    std::vector<FarPoint> next(static_cast<std::size_t>(fine.GetNumVertices()));
+    Far::PrimvarRefinerReal<double>(*refiner).Interpolate(level + 1, points, next);
+    points.swap(next);
+    std::vector<Cell> children(static_cast<std::size_t>(fine.GetNumFaces()));
+    for (int f = 0; f < coarse.GetNumFaces(); ++f) {
+      const auto child = coarse.GetFaceChildFaces(f);
+      for (int i = 0; i < child.size(); ++i) {
+        Cell cell = cells[f];
+        if (!loop && coarse.GetFaceVertices(f).size() != 4) {
+          cell.sub = i;  // a whole piece
+        } else if (loop && i == 3) {
+          cell.size /= -2;
+          cell.u -= cell.size, cell.v -= cell.size;
+        } else {
+          cell.size /= 2;
+          cell.u += cell.size * (i == 1 || (i == 2 && !loop)), cell.v += cell.size * (i >= 2);
+        }
+        children[child[i]] = cell;
+      }
+    }
+    cells.swap(children);
+  }
+  std::vector<FarPoint> limit(points.size());
+  Far::PrimvarRefinerReal<double>(*refiner).Limit(points, limit);
+  const Far::TopologyLevel& last = refiner->GetLevel(levels);
+  for (int f = 0; f < last.GetNumFaces(); ++f) {
+    const Cell& cell = cells[f];
+    for (int i = 0; i < last.GetFaceVertices(f).size(); ++i) {
+      const SurfaceParameter at{cell.face, cell.sub, cell.u + cell.size * (i == 1 || (i == 2 && !loop)),
+                                cell.v + cell.size * (i >= 2)};
+      const bool corner = (at.u == 0 || at.u == 1) && (at.v == 0 || at.v == 1);
+      if (!corner) visit(at, limit[last.GetFaceVertices(f)[i]].p);
+    }
+  }
+}
+
+SurfaceParameter random_parameter(const Oracle& oracle, std::mt19937& random) {
+  SurfaceParameter at;
+  std::uniform_real_distribution<double> unit(0, 1);
+  do {
+    at.face = std::uniform_int_distribution<int>(0, oracle.face_count() - 1)(random);
+  } while (!oracle.has_limit(at.face));
+  at.sub = std::uniform_int_distribution<int>(0, oracle.sub_count(at.face) - 1)(random);
+  at.u = unit(random), at.v = unit(random);
+  if (oracle.triangular() && at.u + at.v > 1) at.u = 1 - at.u, at.v = 1 - at.v;
+  return at;
+}
+
+/// Moves a parameter towards one of the corners: to `factor` times its distance.
+SurfaceParameter towards_corner(SurfaceParameter at, bool triangular, int corner, double factor) {
+  constexpr double square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  const double* c = triangular ? triangle[corner % 3] : square[corner % 4];
+  at.u = c[0] + factor * (at.u - c[0]), at.v = c[1] + factor * (at.v - c[1]);
+  return at;
+}
+
+double worst_against_brute_force(const Model& model, int levels, const OracleOptions& options) {
+  const Oracle oracle(model.mesh, model.scheme, options);
+  double worst = 0;
+  brute_force(model, levels, [&](const SurfaceParameter& at, const Vec3& expected) {
+    if (const auto sample = oracle.evaluate(at)) worst = std::max(worst, (sample->position - expected).norm());
+  });
+  return worst / oracle.diagonal();
+}
+
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+}  // namespace
+
+TEST_CASE("the oracle gives the limit points of the whole mesh, refined", "[oracle]") {
+  for (const Model& model : models()) {
+    INFO(model.name);
+    CHECK(worst_against_brute_force(model, 6, {}) <= 1e-12);
+  }
+}
+
+TEST_CASE("refinement of a corner's 3-ring alone gives the same limit points", "[oracle]") {
+  for (const Model& model : models()) {
+    INFO(model.name);
+    CHECK(worst_against_brute_force(model, 6, {.zone = 1}) <= 1e-12);
+    CHECK(worst_against_brute_force(model, 4, {.zone = 0.01, .heavy_valence = 0}) <= 1e-12);
+  }
+}
+
+TEST_CASE("close to irregular corners the oracle agrees with nine levels of the whole mesh", "[oracle]") {
+  for (const Model& model : {Model{"catmark tetrahedron", "catmark", tetrahedron()}, Model{"loop tetrahedron", "loop", tetrahedron()}}) {
+    INFO(model.name);
+    const Oracle oracle(model.mesh, model.scheme);
+    double worst = 0;
+    int compared = 0;
+    brute_force(model, 9, [&](const SurfaceParameter& at, const Vec3& expected) {
+      if (at.u > 1.0 / 128 || at.v > 1.0 / 128) return;
+      worst = std::max(worst, (oracle.evaluate(at)->position - expected).norm());
+      ++compared;
+    });
+    CHECK(compared > 50);
+    CHECK(worst <= 1e-12 * oracle.diagonal());
+  }
+}
+
+TEST_CASE("the oracle is continuous across the zone that it refines", "[oracle]") {
+  for (const Model& model : models()) {
+    INFO(model.name);
+    const Oracle refines(model.mesh, model.scheme), evaluates_bfr(model.mesh, model.scheme, {.zone = std::ldexp(1, -10)});
+    std::mt19937 random(3);
+    for (int i = 0; i < 200; ++i) {
+      SurfaceParameter at = random_parameter(refines, random);
+      at.u = std::max(at.u, 0.3);  // between 2^-10 and 2^-8 of a corner
+      if (refines.triangular()) at.v = std::min(at.v, 1 - at.u);
+      at = towards_corner(at, refines.triangular(), 0, 1.0 / 280);
+      const auto a = refines.evaluate(at), b = evaluates_bfr.evaluate(at);
+      REQUIRE((a->position - b->position).norm() <= 1e-13 * refines.diagonal());
+      REQUIRE(angle_between(a->normal, b->normal) <= 1e-9);
+      REQUIRE((a->derivatives->duv - b->derivatives->duv).norm() <=
+              1e-7 * (refines.diagonal() + b->derivatives->duv.norm()));
+    }
+  }
+}
+
+TEST_CASE("the oracle's derivatives are those of its positions", "[oracle]") {
+  for (const Model& model : models()) {
+    INFO(model.name);
+    const Oracle oracle(model.mesh, model.scheme);
+    std::mt19937 random(4);
+    for (int i = 0; i < 60; ++i) {
+      SurfaceParameter at = random_parameter(oracle, random);
+      const double factor = i % 3 == 0 ? 1e-4 : 1;
+      at.u = 0.1 + 0.38 * at.u, at.v = 0.1 + 0.38 * at.v;
+      at = towards_corner(at, oracle.triangular(), i, factor);
+      const double h = 1e-5 * factor;
+      const auto value = [&](double du, double dv) {
+        return *oracle.evaluate({at.face, at.sub, at.u + du * h, at.v + dv * h});
+      };
+      const Derivatives d = *value(0, 0).derivatives;
+      const Vec3 du = (value(1, 0).position - value(-1, 0).position) / (2 * h);
+      const Vec3 dv = (value(0, 1).position - value(0, -1).position) / (2 * h);
+      const Vec3 duu = (value(1, 0).derivatives->du - value(-1, 0).derivatives->du) / (2 * h);
+      const Vec3 duv = (value(0, 1).derivatives->du - value(0, -1).derivatives->du) / (2 * h);
+      const Vec3 dvv = (value(0, 1).derivatives->dv - value(0, -1).derivatives->dv) / (2 * h);
+      const double first = 1e-6 * oracle.diagonal() / factor, second = first / factor;
+      REQUIRE((du - d.du).norm() <= first);
+      REQUIRE((dv - d.dv).norm() <= first);
+      REQUIRE((duu - d.duu).norm() <= 1e-4 * d.duu.norm() + second);
+      REQUIRE((duv - d.duv).norm() <= 1e-4 * d.duv.norm() + second);
+      REQUIRE((dvv - d.dvv).norm() <= 1e-4 * d.dvv.norm() + second);
+      REQUIRE(angle_between(value(0, 0).normal, d.du.cross(d.dv)) <= 1e-12);
+    }
+  }
+}
+
+TEST_CASE("at a corner the oracle gives the limit of the points around it", "[oracle]") {
+  for (const Model& model : models()) {
+    INFO(model.name);
+    const Oracle oracle(model.mesh, model.scheme);
+    for (int f = 0; f < oracle.face_count(); ++f) {
+      for (int sub = 0; oracle.has_limit(f) && sub < oracle.sub_count(f); ++sub) {
+        const SurfaceParameter corner{f, sub, 0, 0}, near{f, sub, std::ldexp(0.7, -110), std::ldexp(0.2, -110)};
+        const LimitSample limit = *oracle.evaluate(corner), sample = *oracle.evaluate(near);
+        REQUIRE((limit.position - sample.position).norm() <= 1e-13 * oracle.diagonal());
+      }
+    }
+  }
+}
+
+TEST_CASE("the oracle's normals at corners are limits where there are any", "[oracle]") {
+  int with_normal = 0;
+  for (const Model& model : models()) {
+    INFO(model.name);
+    const Oracle oracle(model.mesh, model.scheme);
+    for (int f = 0; f < oracle.face_count(); ++f) {
+      if (!oracle.has_limit(f)) continue;
+      const LimitSample limit = *oracle.evaluate({f, 0, 0, 0});
+      if (limit.normal.isZero()) continue;
+      ++with_normal;
+      // Normals approach their limit like a power of the distance, at boundary corners of one Catmull-Clark face only
+      // like 1 / log2 of it. On one face inside a crease the crease's plane shrinks like the distance's square, so
+      // that rounding hides it soon; elsewhere it takes many levels: any of these distances may be the best.
+      const bool slow = model.name == "catmark edge only" || model.name == "catmark crease";
+      double best = 4;
+      for (int exponent : {-15, -20, -27, -50, -100}) {
+        const double distance = std::ldexp(1, exponent);
+        const LimitSample near = *oracle.evaluate({f, 0, 0.4 * distance, 0.3 * distance});
+        best = std::min(best, angle_between(near.normal, limit.normal));
+      }
+      INFO("face " << f);
+      CHECK(best <= (slow ? 0.1 : 1e-6));
+    }
+  }
+  CHECK(with_normal > 50);
+}
+
+TEST_CASE("the oracle's parameters on n-gons are Bfr's sub-faces", "[oracle]") {
+  const ControlMesh mesh = with_edges(prism(5), {{0, 1, 10}, {1, 3, 1.7f}});
+  const Oracle oracle(mesh, "catmark");
+  const auto refiner = osd_refiner(mesh, "catmark");
+  Bfr::SurfaceFactory::Options options;
+  options.SetApproxLevelSmooth(10).SetApproxLevelSharp(10);
+  const Bfr::RefinerSurfaceFactory<> factory(*refiner, options);
+  std::mt19937 random(5);
+  for (int i = 0; i < 300; ++i) {
+    const SurfaceParameter at = random_parameter(oracle, random);
+    Bfr::Surface<double> surface;
+    REQUIRE(factory.InitVertexSurface(at.face, &surface));
+    std::vector<double> points(static_cast<std::size_t>(3 * surface.GetNumPatchPoints()));
+    surface.PreparePatchPoints(mesh.positions.front().data(), 3, points.data(), 3);
+    const Bfr::Parameterization parameterization = surface.GetParameterization();
+    double uv[2] = {at.u, at.v};
+    double scale = 1;
+    if (parameterization.HasSubFaces()) {
+      const double normalized[2] = {at.u, at.v};
+      parameterization.ConvertNormalizedSubFaceToCoord(at.sub, normalized, uv);
+      scale = 0.5;  // a sub-face spans half a unit of Bfr's parameter
+    }
+    Vec3 p, du, dv, duu, duv, dvv;
+    surface.Evaluate(uv, points.data(), 3, p.data(), du.data(), dv.data(), duu.data(), duv.data(), dvv.data());
+    const LimitSample sample = *oracle.evaluate(at);
+    REQUIRE((sample.position - p).norm() <= 1e-13);
+    REQUIRE((sample.derivatives->du - scale * du).norm() <= 1e-11);
+    REQUIRE((sample.derivatives->dv - scale * dv).norm() <= 1e-11);
+    REQUIRE((sample.derivatives->duv - scale * scale * duv).norm() <= 1e-8 * (1 + duv.norm()));
+  }
+}
+
+TEST_CASE("high valence costs the oracle moderate time and no accuracy", "[oracle]") {
+  for (const std::string scheme : {"catmark", "loop"}) {
+    INFO(scheme);
+    const Model model{scheme, scheme, pyramids(360)};
+    CHECK(worst_against_brute_force(model, 3, {}) <= 1e-12);
+    const Oracle oracle(model.mesh, scheme);
+    // The pole is corner 2; along an edge the surface is the limit of what is between.
+    const int corner = scheme == "loop" ? 0 : 2;
+    const auto at = [&](double d) {
+      return scheme == "loop" ? SurfaceParameter{0, 0, d / 3, 1 - d} : SurfaceParameter{0, corner, d / 3, d};
+    };
+    const LimitSample pole = *oracle.evaluate(at(0));
+    CHECK_FALSE(pole.derivatives);
+    CHECK((oracle.evaluate(at(1e-12))->position - pole.position).norm() <= 1e-5);
+    CHECK((oracle.evaluate(at(std::ldexp(1, -50)))->position - pole.position).norm() <= 1e-8);
+  }
+}
+
+TEST_CASE("faces without a limit surface give no sample", "[oracle]") {
+  ControlMesh open = with_boundary(sheet(4, 4, false), BoundaryInterpolation::none);
+  open.holes = {5};
+  const Oracle oracle(open, "catmark");
+  int with_limit = 0;
+  for (int f = 0; f < oracle.face_count(); ++f) {
+    CHECK(oracle.evaluate({f, 0, 0.5, 0.5}).has_value() == oracle.has_limit(f));
+    with_limit += oracle.has_limit(f);
+  }
+  CHECK(with_limit == 3);  // the inner 2 x 2 without the hole
+  CHECK_THROWS(oracle.evaluate({0, 1, 0.5, 0.5}));
+  CHECK_THROWS(oracle.evaluate({99, 0, 0.5, 0.5}));
+}
+
+TEST_CASE("both ways of the oracle agree on the shapes in SHAOLIN_SHAPES", "[oracle]") {
+  const char* folder = std::getenv("SHAOLIN_SHAPES");
+  if (folder == nullptr) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".obj") continue;
+    const std::string name = entry.path().filename();
+    INFO(name);
+    ControlMesh mesh;
+    try {
+      mesh = read_obj(entry.path());
+    } catch (const std::exception& error) {
+      WARN(error.what());
+      continue;
+    }
+    const std::string scheme = mesh.scheme == "loop" || name.starts_with("loop_") ? "loop" : "catmark";
+    const Oracle bfr(mesh, scheme), refined(mesh, scheme, {.zone = 0.3, .heavy_valence = 6});
+    std::mt19937 random(6);
+    for (int i = 0; i < 300; ++i) {
+      SurfaceParameter at = random_parameter(bfr, random);
+      if (i % 4 == 0) at = towards_corner(at, bfr.triangular(), i / 4, std::pow(10, -8.0 * (i % 97) / 97));
+      INFO("face " << at.face << " sub " << at.sub << " u " << at.u << " v " << at.v);
+      const LimitSample a = *bfr.evaluate(at), b = *refined.evaluate(at);
+      REQUIRE((a.position - b.position).norm() <= 1e-12 * bfr.diagonal());
+      if (!a.normal.isZero() && !b.normal.isZero()) REQUIRE(angle_between(a.normal, b.normal) <= 1e-7);
+    }
+  }
+}

@@ -1,0 +1,115 @@
+#include "tools/cli/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "schemes/text.h"
+
+namespace shaolin {
+namespace {
+
+constexpr int max_image_side = 32768;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Reads exactly `count` finite numbers with commas between them.
+template <std::size_t count>
+std::optional<std::array<double, count>> parse_list(std::string_view text) {
+  std::array<double, count> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t comma = text.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == count)) return std::nullopt;
+    const std::optional<double> number = to_number(text.substr(0, comma));
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers[i] = *number;
+    if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
+  }
+  return numbers;
+}
+
+/// The image's up direction before it is made perpendicular to the view.
+Vec3 up_hint(const Vec3& forward) {
+  constexpr double parallel = 1e-6;  // sine of the angle below which y says nothing about the image's roll
+  if (forward.cross(Vec3::UnitY()).norm() > parallel) return Vec3::UnitY();
+  return forward.y() < 0 ? Vec3(-Vec3::UnitZ()) : Vec3(Vec3::UnitZ());
+}
+
+}  // namespace
+
+ImageSize parse_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const auto side = [](std::string_view word) { return to_integer(word).value_or(0); };
+  const long long width = cross == std::string::npos ? 0 : side(std::string_view(text).substr(0, cross));
+  const long long height = cross == std::string::npos ? 0 : side(std::string_view(text).substr(cross + 1));
+  if (std::min(width, height) < 1 || std::max(width, height) > max_image_side)
+    throw std::invalid_argument("'" + text + "' is not WxH with sides from 1 to " + std::to_string(max_image_side));
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+Camera parse_camera(const std::string& text) {
+  const auto parsed = parse_list<7>(text);
+  if (!parsed) throw std::invalid_argument("'" + text + "' is not ex,ey,ez,tx,ty,tz,fov: seven finite numbers");
+  const std::array<double, 7>& numbers = *parsed;
+  Camera camera;
+  camera.eye = {numbers[0], numbers[1], numbers[2]};
+  camera.target = {numbers[3], numbers[4], numbers[5]};
+  camera.fov = numbers[6];
+  const double distance = (camera.target - camera.eye).stableNorm();
+  if (!(distance > 0) || !std::isfinite(distance))
+    throw std::invalid_argument("'" + text + "': the target must lie apart from the eye, at a finite distance");
+  if (!(camera.fov > 0 && camera.fov < 180))
+    throw std::invalid_argument("'" + text + "': fov, the vertical angle in degrees, must lie between 0 and 180");
+  return camera;
+}
+
+std::string to_string(const Camera& camera) {
+  std::string text;
+  const auto append = [&text](double number) {
+    std::array<char, 32> digits;
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    text.append(digits.data(), result.ptr);
+  };
+  for (const Vec3& point : {camera.eye, camera.target})
+    for (int axis = 0; axis < 3; ++axis) {
+      append(point[axis]);
+      text += ',';
+    }
+  append(camera.fov);
+  return text;
+}
+
+Camera default_camera(const Box& bounds, ImageSize size) {
+  Camera camera;
+  camera.target = 0.5 * (bounds.lower + bounds.upper);
+  const double radius = 0.5 * (bounds.upper - bounds.lower).norm();
+  const double half_height = std::tan(0.5 * radians(camera.fov));
+  const double half_angle = std::atan(half_height * std::min(1.0, size.aspect()));
+  const double distance = (radius > 0 ? radius : 1) / std::sin(half_angle);
+  camera.eye = camera.target + distance * Vec3(0.55, 0.45, 1).normalized();
+  return camera;
+}
+
+View::View(const Camera& camera, ImageSize size)
+    : camera_(camera), size_(size), half_height_(std::tan(0.5 * radians(camera.fov))) {
+  forward_ = (camera.target - camera.eye).stableNormalized();
+  right_ = forward_.cross(up_hint(forward_)).normalized();
+  up_ = right_.cross(forward_);
+}
+
+Ray View::ray(int x, int y) const {
+  const double across = 2 * (x + 0.5) / size_.width - 1;
+  const double upward = 1 - 2 * (y + 0.5) / size_.height;
+  const Vec3 direction = forward_ + half_height_ * (across * size_.aspect() * right_ + upward * up_);
+  Ray ray;
+  ray.origin = camera_.eye;
+  ray.direction = direction.normalized();
+  return ray;
+}
+
+}  // namespace shaolin

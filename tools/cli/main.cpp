@@ -1,0 +1,61 @@
+/// The command-line tool: chooses a subcommand and maps its outcome to the exit status.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "schemes/errors.h"
+#include "tools/cli/command.h"
+#include "tools/cli/eval.h"
+#include "tools/cli/info.h"
+#include "tools/cli/query.h"
+#include "tools/cli/render.h"
+
+namespace shaolin {
+namespace {
+
+const char* const description =
+    "Ray queries on the limit surface of subdivision meshes (Loop, Catmull-Clark), without tessellation.\n"
+    "'shaolin SUBCOMMAND --help' explains a subcommand.";
+
+const char* const footer =
+    "Models are Wavefront OBJ files with OpenSubdiv's tag lines.\n"
+    "Exit status: 0 done, 1 a check failed, 2 usage, 3 bad input.";
+
+int run(const Command& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    std::cerr << "shaolin: error: " << error.what() << '\n';
+  } catch (const std::bad_alloc&) {
+    std::cerr << "shaolin: error: out of memory\n";
+  } catch (const std::exception& error) {
+    std::cerr << "shaolin: error: " << error.what() << '\n';
+  }
+  return exit_bad_input;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(description, "shaolin");
+  app.footer(footer);
+  app.set_version_flag("--version", std::string("shaolin ") + SHAOLIN_VERSION);
+  app.require_subcommand(1);
+
+  Command command;
+  add_render(app, command);
+  add_query(app, command);
+  add_eval(app, command);
+  add_info(app, command);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_usage;  // --help and --version arrive here too, with status 0
+  }
+  return run(command);
+}
+
+}  // namespace
+}  // namespace shaolin
+
+int main(int argc, char** argv) { return shaolin::parse_and_run(argc, argv); }

@@ -1,0 +1,50 @@
+#include "tools/cli/model.h"
+
+#include <iostream>
+#include <utility>
+
+#include "schemes/obj.h"
+
+namespace shaolin {
+namespace {
+
+/// Prints the warnings from index `first` on.
+void print_warnings(const ControlMesh& mesh, std::size_t first) {
+  for (std::size_t i = first; i < mesh.warnings.size(); ++i)
+    std::cerr << "shaolin: warning: " << mesh.warnings[i] << '\n';
+}
+
+}  // namespace
+
+void add_model_options(CLI::App& app, ModelOptions& options) {
+  app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
+  app.add_option("--scheme", options.scheme,
+                 "Subdivision scheme, loop or catmark (default: the file's 't scheme' tag; without it, loop if all "
+                 "faces are triangles, else catmark)")
+      ->check(CLI::IsMember({"loop", "catmark"}))
+      ->type_name("NAME");
+}
+
+Model load_model(const ModelOptions& options) {
+  Model model;
+  model.mesh = read_obj(options.file);
+  model.scheme = options.scheme.empty() ? default_scheme(model.mesh) : options.scheme;
+  print_warnings(model.mesh, 0);
+  return model;
+}
+
+std::unique_ptr<LimitSurface> build_surface(Model model) {
+  const std::size_t printed = model.mesh.warnings.size();
+  auto surface = make_limit_surface(std::move(model.mesh), model.scheme);
+  print_warnings(surface->control_mesh(), printed);
+  return surface;
+}
+
+Scene build_scene(Model model) {
+  const std::size_t printed = model.mesh.warnings.size();
+  Scene scene(std::move(model.mesh), model.scheme);
+  print_warnings(scene.surface().control_mesh(), printed);
+  return scene;
+}
+
+}  // namespace shaolin

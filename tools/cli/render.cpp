@@ -1,0 +1,176 @@
+#include "tools/cli/render.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include "tools/cli/exr.h"
+#include "tools/cli/image.h"
+#include "tools/cli/level_map.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/png.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/render_stats.h"
+#include "tools/cli/shade.h"
+#include "tools/cli/threads.h"
+
+namespace shaolin {
+namespace {
+
+constexpr int tile_side = 32;
+
+std::array<float, 3> to_float(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// One sample, at the pixel's centre: the image depends on nothing else.
+Pixel render_pixel(const Scene& scene, const Shader& shader, const Ray& ray) {
+  Pixel pixel;
+  const std::optional<Hit> hit = scene.intersect(ray);
+  if (!hit) return pixel;
+  pixel.color = shader.shade(ray, *hit);
+  pixel.alpha = 1;
+  pixel.z = static_cast<float>(hit->t);
+  pixel.normal = to_float(hit->sample.normal);
+  pixel.position = to_float(hit->sample.position);
+  pixel.uv = {static_cast<float>(hit->at.u), static_cast<float>(hit->at.v)};
+  pixel.face = static_cast<std::uint32_t>(hit->at.face);
+  pixel.level = static_cast<std::uint32_t>(hit->level);
+  return pixel;
+}
+
+/// Renders in square tiles: neighbouring rays refine the same patches.
+Image render_image(const Scene& scene, const View& view) {
+  Image image(view.size());
+  const Shader shader(scene, view);
+  const int columns = (image.size.width + tile_side - 1) / tile_side;
+  const int rows = (image.size.height + tile_side - 1) / tile_side;
+  Progress progress(static_cast<std::size_t>(columns) * rows);
+  const auto render_tile = [&](int tile) {
+    const int left = tile % columns * tile_side, top = tile / columns * tile_side;
+    for (int y = top; y < std::min(top + tile_side, image.size.height); ++y)
+      for (int x = left; x < std::min(left + tile_side, image.size.width); ++x)
+        image.at(x, y) = render_pixel(scene, shader, view.ray(x, y));
+    progress.advance();
+  };
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, columns * rows, 1),
+      [&](const tbb::blocked_range<int>& tiles) {
+        for (int tile = tiles.begin(); tile != tiles.end(); ++tile) render_tile(tile);
+      },
+      tbb::simple_partitioner());
+  return image;
+}
+
+/// The files of one run: each is written under a temporary name, and all get their own names at the end. They are
+/// opened before the work starts, so that a folder that does not exist is not found out after it.
+class OutputFiles {
+ public:
+  explicit OutputFiles(const RenderOptions& options)
+      : exr(options.exr), png(open(options.png)), level_png(open(options.level_png)), stats(open(options.stats)) {}
+
+  void commit() {
+    exr.commit();
+    for (const auto& file : {&png, &level_png, &stats})
+      if (*file) (*file)->commit();
+  }
+
+  OutputFile exr;
+  std::unique_ptr<OutputFile> png, level_png, stats;  ///< null: not asked for
+
+ private:
+  static std::unique_ptr<OutputFile> open(const std::filesystem::path& target) {
+    return target.empty() ? nullptr : std::make_unique<OutputFile>(target);
+  }
+};
+
+void print_summary(const RenderOptions& options, const RenderStats& stats) {
+  for (const auto& file : {options.exr, options.png, options.level_png, options.stats})
+    if (!file.empty()) std::printf("wrote %s\n", file.c_str());
+  std::printf("%dx%d pixels, %zu on the surface; %.3f s in all: load %.3f, build %.3f, render %.3f, write %.3f\n",
+              stats.size.width, stats.size.height, stats.pixels_hit, stats.total_seconds(), stats.load_seconds,
+              stats.build_seconds, stats.render_seconds, stats.write_seconds);
+}
+
+void render_in_arena(const RenderOptions& options) {
+  RenderStats stats;
+  stats.threads = thread_count(options.threads);
+  stats.size = options.size;
+  Stopwatch stopwatch;
+
+  Model model = load_model(options.model);
+  stats.model = options.model.file.string();
+  stats.scheme = model.scheme;
+  stats.load_seconds = stopwatch.lap();
+
+  const Scene scene = build_scene(std::move(model));
+  stats.build_seconds = stopwatch.lap();
+
+  OutputFiles files(options);
+  const View view(options.camera ? *options.camera : default_camera(scene.bounds(), options.size), options.size);
+  const Image image = render_image(scene, view);
+  stats.render_seconds = stopwatch.lap();
+  stats.camera = to_string(view.camera());
+  stats.statistics = scene.statistics();
+  stats.pixels_hit = static_cast<std::size_t>(
+      std::count_if(image.pixels.begin(), image.pixels.end(), [](const Pixel& pixel) { return pixel.hit(); }));
+
+  write_exr(files.exr.path(), image, {stats.camera, stats.scheme}, stats.threads);
+  if (files.png) write_png(files.png->path(), beauty_picture(image));
+  if (files.level_png) write_png(files.level_png->path(), level_map(image, view));
+  stats.write_seconds = stopwatch.lap();
+  if (files.stats) write_stats(files.stats->path(), stats);
+  files.commit();
+  print_summary(options, stats);
+}
+
+/// Makes a parser's complaint a usage error.
+template <typename Value, typename Parse>
+std::function<void(const std::string&)> parse_into(Value& value, Parse parse, const char* flag) {
+  return [&value, parse, flag](const std::string& text) {
+    try {
+      value = parse(text);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(flag, error.what());
+    }
+  };
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  run_with_threads(options.threads, [&options] { render_in_arena(options); });
+  return exit_done;
+}
+
+void add_render(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* sub = app.add_subcommand("render", "Render a picture of the limit surface");
+  add_model_options(*sub, options->model);
+  sub->add_option("-o,--output", options->exr,
+                  "OpenEXR file with the channels R G B A (linear), Z (distance from the eye), N.X/Y/Z, P.X/Y/Z, "
+                  "uv.U/V, face and level (UINT; 4294967295 where nothing was hit)")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--png", options->png, "The same picture as PNG")->type_name("FILE");
+  sub->add_option("--png-level", options->level_png,
+                  "PNG with a colour per refinement level; its legend adds columns on the right")
+      ->type_name("FILE");
+  sub->add_option_function<std::string>("--size", parse_into(options->size, parse_size, "--size"), "Size in pixels")
+      ->type_name("WxH")
+      ->default_str("800x800");
+  sub->add_option_function<std::string>("--camera", parse_into(options->camera, parse_camera, "--camera"),
+                                        "Eye, target, and vertical opening angle in degrees: ex,ey,ez,tx,ty,tz,fov. y "
+                                        "is up (default: frames the model from the front, right and above, fov 40)")
+      ->type_name("CAMERA");
+  add_threads_option(*sub, options->threads);
+  sub->add_option("--stats", options->stats, "JSON file with times, memory and counts of the work done")
+      ->type_name("FILE");
+  sub->callback([options, &command] { command = [options] { return render(*options); }; });
+}
+
+}  // namespace shaolin

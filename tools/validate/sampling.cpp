@@ -1,0 +1,157 @@
+#include "tools/validate/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/validate/random.h"
+
+namespace shaolin {
+namespace {
+
+/// A face with a limit surface, or a corner of one.
+struct Piece {
+  int face, sub;
+};
+
+std::vector<Piece> pieces_of(const Oracle& oracle) {
+  std::vector<Piece> pieces;
+  for (int face = 0; face < oracle.face_count(); ++face) {
+    for (int sub = 0; oracle.has_limit(face) && sub < oracle.sub_count(face); ++sub) pieces.push_back({face, sub});
+  }
+  return pieces;
+}
+
+SurfaceParameter random_parameter(const Piece& piece, bool triangular, Random& random) {
+  SurfaceParameter at{piece.face, piece.sub, random.unit(), random.unit()};
+  if (triangular && at.u + at.v > 1) at.u = 1 - at.u, at.v = 1 - at.v;
+  return at;
+}
+
+/// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it.
+SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, Random& random) {
+  SurfaceParameter at{piece.face, piece.sub, 0, 0};
+  if (triangular) {
+    // Barycentric: 1 - distance for the corner, the rest shared.
+    const double share = distance * along, rest = distance - share;
+    switch (random.index(3)) {
+      case 0: at.u = share, at.v = rest; break;
+      case 1: at.v = share, at.u = 1 - distance; break;
+      default: at.u = share, at.v = 1 - distance; break;
+    }
+    at.v = std::min(at.v, 1 - at.u);
+    return at;
+  }
+  double du = distance, dv = distance * along;
+  if (random.one_in(2)) std::swap(du, dv);
+  at.u = random.one_in(2) ? du : 1 - du;
+  at.v = random.one_in(2) ? dv : 1 - dv;
+  return at;
+}
+
+SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, Random& random) {
+  const double distance = random.log_between(1e-8, 1), along = random.unit();
+  switch (random.index(16)) {
+    case 0: return near_corner(piece, triangular, 0, along, random);
+    case 1: return near_corner(piece, triangular, distance, random.one_in(2) ? 0 : triangular, random);
+    default: return near_corner(piece, triangular, distance, along, random);
+  }
+}
+
+/// The model's box, and its diagonal as the length unit.
+struct Surroundings {
+  Vec3 lower, upper;
+  double diagonal;
+
+  Vec3 centre() const { return (lower + upper) / 2; }
+};
+
+ProbeRay camera_ray(const Surroundings& model, Random& random) {
+  const Vec3 eye = model.centre() + random.between(0.7, 3) * model.diagonal * random.direction();
+  return {RayKind::camera, {eye, random.inside(model.lower, model.upper) - eye}, {}};
+}
+
+ProbeRay incoherent_ray(const Surroundings& model, Random& random) {
+  const Vec3 margin = model.upper - model.lower + Vec3::Constant(0.1 * model.diagonal);
+  Ray ray{random.inside(model.lower - margin, model.upper + margin), random.direction()};
+  if (random.one_in(4)) {
+    ray.tmin = random.between(-0.5, 0.5) * model.diagonal;
+    ray.tmax = ray.tmin + random.between(0, 2) * model.diagonal;
+  }
+  return {RayKind::incoherent, ray, {}};
+}
+
+/// The origin lies `distance` before the point, so that the ray meets it at t = 1.
+ProbeRay ray_through(RayKind kind, const Vec3& point, const Vec3& direction, double distance) {
+  return {kind, {point - distance * direction, distance * direction}, 1.0};
+}
+
+ProbeRay grazing_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
+  const LimitSample sample = *oracle.evaluate(random_parameter(piece, oracle.triangular(), random));
+  const Vec3 tangent = sample.normal.cross(random.direction()).normalized();
+  const double tilt = random.log_between(1e-4, 1e-1) * (random.one_in(2) ? 1 : -1);
+  const Vec3 direction = std::cos(tilt) * tangent + std::sin(tilt) * sample.normal;
+  // No tangent plane: any direction will do.
+  const Vec3 usable = direction.norm() > 0.5 ? direction.normalized() : random.direction();
+  return ray_through(RayKind::grazing, sample.position, usable, random.log_between(1e-2, 3) * model.diagonal);
+}
+
+ProbeRay aimed_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
+  const bool at_corner = random.one_in(2);
+  const double side = oracle.triangular() && random.one_in(2) ? 1 : 0;
+  const SurfaceParameter at =
+      near_corner(piece, oracle.triangular(), at_corner ? 0 : random.unit(), side, random);
+  return ray_through(RayKind::aimed, oracle.evaluate(at)->position, random.direction(),
+                     random.log_between(1e-2, 3) * model.diagonal);
+}
+
+}  // namespace
+
+std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
+  const std::vector<Piece> pieces = pieces_of(oracle);
+  std::vector<SurfaceParameter> parameters;
+  if (pieces.empty()) return parameters;
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Piece& piece = pieces[random.index(pieces.size())];
+    parameters.push_back(i % 4 == 3 ? crowding_parameter(piece, oracle.triangular(), random)
+                                    : random_parameter(piece, oracle.triangular(), random));
+  }
+  return parameters;
+}
+
+const char* name_of(RayKind kind) {
+  switch (kind) {
+    case RayKind::camera: return "camera";
+    case RayKind::incoherent: return "incoherent";
+    case RayKind::grazing: return "grazing";
+    case RayKind::aimed: break;
+  }
+  return "aimed";
+}
+
+std::vector<ProbeRay> sample_rays(const Oracle& oracle, const Vec3& lower, const Vec3& upper, std::size_t count,
+                                  std::uint64_t seed) {
+  const std::vector<Piece> pieces = pieces_of(oracle);
+  const Surroundings model{lower, upper, (upper - lower).norm()};
+  Random random(seed);
+  std::vector<ProbeRay> rays;
+  for (std::size_t i = 0; i < count + count / 10; ++i) {
+    const RayKind kind = i < count ? ray_kinds[i % 3] : RayKind::aimed;
+    const bool needs_surface = kind == RayKind::grazing || kind == RayKind::aimed;
+    if (needs_surface && pieces.empty()) continue;
+    const Piece piece = pieces.empty() ? Piece{0, 0} : pieces[random.index(pieces.size())];
+    ProbeRay probe = kind == RayKind::camera       ? camera_ray(model, random)
+                     : kind == RayKind::incoherent ? incoherent_ray(model, random)
+                     : kind == RayKind::grazing    ? grazing_ray(oracle, piece, model, random)
+                                                   : aimed_ray(oracle, piece, model, random);
+    const double length = random.log_between(1e-2, 1e2);
+    probe.ray.direction *= length;
+    probe.ray.tmin /= length;
+    probe.ray.tmax /= length;
+    if (probe.target) *probe.target /= length;
+    rays.push_back(probe);
+  }
+  return rays;
+}
+
+}  // namespace shaolin

@@ -1,0 +1,40 @@
+#pragma once
+/// Where a surface is looked at: parameters that crowd towards corners, and rays of several kinds.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "intersect/ray.h"
+#include "tools/validate/oracle.h"
+
+namespace shaolin {
+
+/// Faces with a limit surface and their subs, each as likely; u and v uniform, but a quarter of them at distances from a
+/// random corner of the domain (in the largest of |du|, |dv|) that are log-uniform from 1 down to 1e-8. Of that quarter
+/// one in sixteen is the corner itself and one in sixteen lies on a side. Empty if no face has a limit surface.
+std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed);
+
+enum class RayKind {
+  camera,      ///< from a sphere around the model to points of its box
+  incoherent,  ///< origins in a box three times as large, any direction; every fourth with a finite interval
+  grazing,     ///< through a surface point, 1e-4 to 1e-1 rad out of its tangent plane
+  aimed        ///< at a corner of a patch or a point of its sides, exactly
+};
+inline constexpr std::array<RayKind, 4> ray_kinds{RayKind::camera, RayKind::incoherent, RayKind::grazing,
+                                                  RayKind::aimed};
+const char* name_of(RayKind kind);
+
+struct ProbeRay {
+  RayKind kind;
+  Ray ray;
+  std::optional<double> target;  ///< where the ray meets the surface by construction; a nearer hit may exist
+};
+
+/// `count` rays, in thirds camera, incoherent and grazing, and a tenth of that in addition aimed. Directions have
+/// lengths from 1e-2 to 1e2. `lower` and `upper` bound the model. Grazing and aimed rays need a face with a limit surface.
+std::vector<ProbeRay> sample_rays(const Oracle& oracle, const Vec3& lower, const Vec3& upper, std::size_t count,
+                                  std::uint64_t seed);
+
+}  // namespace shaolin
