@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
+#include "four.h"
 #include "ray.h"
 
 namespace shaolin {
@@ -50,30 +52,70 @@ struct TraversalRay {
   }
 };
 
-/// What entry_distance() says of a box that the ray passes.
-inline constexpr double missed = std::numeric_limits<double>::infinity();
+/// Four boxes side by side, so that one pass of vector instructions tests them all.
+struct FourBoxes {
+  double bounds[2][3][4];  ///< [lower, upper][axis][box]
 
-/// The distance at which the ray enters the box, or `missed` if it does not meet it within [ray.near, far].
-/// Conservative: the box's faces were rounded outward by the caller, and both ends of every slab carry three roundings,
-/// so the interval is widened by 4 u of its larger end. A direction component of 0 gives an infinite or undefined slab
-/// end; comparisons are written so that an undefined one constrains nothing.
-inline double entry_distance(const Box& box, const TraversalRay& ray, double far) {
-  double entry = -std::numeric_limits<double>::infinity();
-  double exit = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool negative = ray.inverse[axis] < 0;
-    const double enter = ((negative ? box.upper : box.lower)[axis] - ray.origin[axis]) * ray.inverse[axis];
-    const double leave = ((negative ? box.lower : box.upper)[axis] - ray.origin[axis]) * ray.inverse[axis];
-    entry = enter > entry ? enter : entry;
-    exit = leave < exit ? leave : exit;
+  /// Empty boxes; no ray meets one.
+  FourBoxes() {
+    for (std::size_t i = 0; i < 4; ++i) set(i, Box());
   }
-  // One end is infinite if the ray runs beside a slab (then entry > exit) or within all but undefined ones.
-  const double slack = 4 * unit_roundoff * std::max(std::abs(entry), std::abs(exit));
-  if (!std::isinf(slack)) {
-    entry -= slack;
-    exit += slack;
+  void set(std::size_t i, const Box& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds[0][axis][i] = box.lower[static_cast<Eigen::Index>(axis)];
+      bounds[1][axis][i] = box.upper[static_cast<Eigen::Index>(axis)];
+    }
   }
-  return entry <= exit && exit >= ray.near && entry <= far ? entry : missed;
-}
+};
+
+/// Those of four boxes that a ray meets, nearest first, with the distances at which it enters them.
+class BoxOrder {
+ public:
+  /// Boxes that meet the ray within [ray.near, far]. Conservative if the boxes were rounded outward: a slab's end
+  /// carries three roundings, and is moved out by 4 u of its value. A direction component of 0 gives infinite or
+  /// undefined ends; an undefined end constrains nothing, and an infinite end on the wrong side becomes undefined and
+  /// is no hit.
+  BoxOrder(const FourBoxes& boxes, const TraversalRay& ray, double far) {
+    Four entry(-missed), exit(missed);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<Eigen::Index>(axis);
+      const bool negative = ray.inverse[at] < 0;
+      const Four origin(ray.origin[at]), inverse(ray.inverse[at]);
+      entry = larger((Four(boxes.bounds[negative][axis]) - origin) * inverse, entry);
+      exit = smaller((Four(boxes.bounds[!negative][axis]) - origin) * inverse, exit);
+    }
+    const Four slack(4 * unit_roundoff);
+    entry = entry - slack * abs(entry);
+    exit = exit + slack * abs(exit);
+    const int met = at_most(entry, exit) & at_most(Four(ray.near), exit) & at_most(entry, Four(far));
+    if (met != 0) sort(met, entry);
+  }
+
+  int count() const { return count_; }
+  std::size_t box(int i) const { return box_[static_cast<std::size_t>(i)]; }
+  double distance(int i) const { return distance_[static_cast<std::size_t>(i)]; }
+
+ private:
+  static constexpr double missed = std::numeric_limits<double>::infinity();
+
+  void sort(int met, const Four& entry) {
+    std::array<double, 4> value;
+    entry.store(value.data());
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!(met >> i & 1)) continue;
+      auto at = static_cast<std::size_t>(count_++);
+      for (; at > 0 && distance_[at - 1] > value[i]; --at) {
+        distance_[at] = distance_[at - 1];
+        box_[at] = box_[at - 1];
+      }
+      distance_[at] = value[i];
+      box_[at] = static_cast<std::uint8_t>(i);
+    }
+  }
+
+  int count_ = 0;
+  std::array<std::uint8_t, 4> box_;
+  std::array<double, 4> distance_;
+};
 
 }  // namespace shaolin

@@ -8,11 +8,16 @@ namespace shaolin {
 struct Bvh::Builder {
   static constexpr int bin_count = 16;
 
+  /// A node of the binary hierarchy that is built first: children at `first` and `first` + 1, or ~primitive.
+  struct Binary {
+    Box box;
+    std::int32_t first;
+  };
+
   const std::vector<Box>& boxes;
   std::vector<Vec3> centres;
   std::vector<std::int32_t> order;
-  std::vector<Node>& nodes;
-  int depth = 0;
+  std::vector<Binary> nodes;
 
   struct Range {
     std::size_t begin, end;
@@ -21,18 +26,16 @@ struct Bvh::Builder {
   struct Task {
     std::size_t node;
     Range range;
-    int depth;
   };
 
   void build() {
     nodes.reserve(2 * boxes.size());
     nodes.push_back({});
-    std::vector<Task> tasks{{0, {0, boxes.size()}, 0}};
+    std::vector<Task> tasks{{0, {0, boxes.size()}}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
       tasks.pop_back();
-      depth = std::max(depth, task.depth);
-      Node node;
+      Binary node;
       for (std::size_t i = task.range.begin; i < task.range.end; ++i) node.box.add(boxes[at(order[i])]);
       if (task.range.size() == 1) {
         node.first = ~order[task.range.begin];
@@ -41,11 +44,62 @@ struct Bvh::Builder {
         const std::size_t first = nodes.size();
         node.first = static_cast<std::int32_t>(first);
         nodes.resize(first + 2);
-        tasks.push_back({first, {task.range.begin, middle}, task.depth + 1});
-        tasks.push_back({first + 1, {middle, task.range.end}, task.depth + 1});
+        tasks.push_back({first, {task.range.begin, middle}});
+        tasks.push_back({first + 1, {middle, task.range.end}});
       }
       nodes[task.node] = node;
     }
+  }
+
+  /// The two children of a binary node, then the largest inner one of them replaced by its own two until there are
+  /// four.
+  std::vector<std::int32_t> four_children(std::int32_t node) const {
+    std::vector<std::int32_t> children{node};
+    while (children.size() < 4) {
+      double largest = -1;
+      std::size_t open = children.size();
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        const Binary& child = nodes[at(children[i])];
+        if (child.first < 0 || child.box.half_area() <= largest) continue;
+        largest = child.box.half_area();
+        open = i;
+      }
+      if (open == children.size()) break;
+      const std::int32_t first = nodes[at(children[open])].first;
+      children[open] = first;
+      children.push_back(first + 1);
+    }
+    return children;
+  }
+
+  /// Collapses the binary hierarchy; returns the depth.
+  int collapse(std::vector<Node>& wide) const {
+    struct Open {
+      std::int32_t binary;
+      std::size_t wide;
+      int depth;
+    };
+    int depth = 0;
+    wide.emplace_back();
+    std::vector<Open> tasks{{0, 0, 1}};
+    while (!tasks.empty()) {
+      const Open task = tasks.back();
+      tasks.pop_back();
+      depth = std::max(depth, task.depth);
+      const std::vector<std::int32_t> children = four_children(task.binary);
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        const Binary& child = nodes[at(children[i])];
+        std::int32_t target = child.first;
+        if (target >= 0) {
+          target = static_cast<std::int32_t>(wide.size());
+          wide.emplace_back();
+          tasks.push_back({children[i], at(target), task.depth + 1});
+        }
+        wide[task.wide].boxes.set(i, child.box);
+        wide[task.wide].child[i] = target;
+      }
+    }
+    return depth;
   }
 
   static std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -108,13 +162,14 @@ struct Bvh::Builder {
 
 Bvh::Bvh(const std::vector<Box>& boxes) {
   if (boxes.empty()) return;
-  Builder builder{boxes, {}, std::vector<std::int32_t>(boxes.size()), nodes_};
+  Builder builder{boxes, {}, std::vector<std::int32_t>(boxes.size()), {}};
   builder.centres.reserve(boxes.size());
   for (const Box& box : boxes) builder.centres.push_back(box.centre());
   std::iota(builder.order.begin(), builder.order.end(), 0);
   builder.build();
+  depth_ = builder.collapse(nodes_);
   nodes_.shrink_to_fit();
-  depth_ = builder.depth;
+  bounds_ = builder.nodes.front().box;
 }
 
 }  // namespace shaolin

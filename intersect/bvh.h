@@ -1,5 +1,5 @@
 #pragma once
-/// A bounding volume hierarchy over boxes, one primitive a leaf.
+/// A bounding volume hierarchy over boxes, four children a node, one primitive a leaf.
 #include <cstdint>
 #include <vector>
 
@@ -19,51 +19,49 @@ class Bvh {
   void traverse(const TraversalRay& ray, Far far, Visit visit) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
-  Box bounds() const { return nodes_.empty() ? Box() : nodes_.front().box; }
+  const Box& bounds() const { return bounds_; }
 
  private:
-  /// An inner node's children stand at `first` and `first` + 1; a leaf has ~primitive in `first`.
+  /// Four boxes and what stands in them: a node, ~primitive, or nothing (the empty box).
   struct Node {
-    Box box;
-    std::int32_t first;
+    FourBoxes boxes;
+    std::array<std::int32_t, 4> child{};
   };
   struct Builder;
 
   std::vector<Node> nodes_;
+  Box bounds_;
   int depth_ = 0;
 };
 
 template <class Far, class Visit>
 void Bvh::traverse(const TraversalRay& ray, Far far, Visit visit) const {
   struct Entry {
-    std::int32_t node;
+    std::int32_t child;
     double distance;
   };
   if (nodes_.empty()) return;
-  Entry fixed[64];
+  // Every level leaves at most three entries behind.
+  constexpr int usual = 128;
+  std::array<Entry, usual> fixed;
   std::vector<Entry> large;
-  Entry* stack = fixed;
-  if (depth_ + 2 > 64) {
-    large.resize(static_cast<std::size_t>(depth_) + 2);
+  Entry* stack = fixed.data();
+  if (3 * depth_ + 4 > usual) {
+    large.resize(static_cast<std::size_t>(3 * depth_ + 4));
     stack = large.data();
   }
   int size = 0;
-  if (const double root = entry_distance(nodes_[0].box, ray, far()); root < missed) stack[size++] = {0, root};
+  stack[size++] = {0, -std::numeric_limits<double>::infinity()};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.distance > far()) continue;
-    const std::int32_t first = nodes_[static_cast<std::size_t>(entry.node)].first;
-    if (first < 0) {
-      if (visit(~first, entry.distance)) return;
+    if (entry.child < 0) {
+      if (visit(~entry.child, entry.distance)) return;
       continue;
     }
-    const double a = entry_distance(nodes_[static_cast<std::size_t>(first)].box, ray, far());
-    const double b = entry_distance(nodes_[static_cast<std::size_t>(first) + 1].box, ray, far());
-    const bool a_first = a <= b;
-    const Entry nearer{a_first ? first : first + 1, std::min(a, b)},
-        farther{a_first ? first + 1 : first, std::max(a, b)};
-    if (farther.distance < missed) stack[size++] = farther;
-    if (nearer.distance < missed) stack[size++] = nearer;
+    const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
+    const BoxOrder order(node.boxes, ray, far());
+    for (int i = order.count() - 1; i >= 0; --i) stack[size++] = {node.child[order.box(i)], order.distance(i)};
   }
 }
 

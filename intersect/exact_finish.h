@@ -4,8 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "../schemes/bezier_quad.h"
+#include "../schemes/domain.h"
 #include "counters.h"
+#include "net.h"
 
 namespace shaolin {
 
@@ -32,7 +33,7 @@ class ExactFinish {
   }
 
   /// True if a hit was found; then hit() is the nearest.
-  bool solve(const Bezier& patch) {
+  bool solve(const Net& patch) {
     visit(patch, Parameter::Zero(), 1.0, 0);
     return found_;
   }
@@ -52,12 +53,11 @@ class ExactFinish {
 
   enum class Verdict { none, found, unknown };
 
-  void visit(const Bezier& cell, const Parameter& origin, double scale, int depth);
-  void split(const Bezier& cell, const Parameter& origin, double scale, int depth);
-  Verdict newton(const Bezier& cell, const Matrix& flattening, double contraction, PatchHit& hit);
+  void visit(const Net& cell, const Parameter& origin, double scale, int depth);
+  void split(const Net& cell, const Parameter& origin, double scale, int depth);
+  double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
+  Verdict newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit);
   void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
-
-  static Eigen::Vector2d plane(const Vec3& v) { return v.head<2>(); }
 
   double error_;
   double near_;
@@ -76,107 +76,114 @@ void ExactFinish<Bezier>::accept(const Parameter& at, double distance, const Par
 }
 
 template <class Bezier>
-void ExactFinish<Bezier>::visit(const Bezier& cell, const Parameter& origin, double scale, int depth) {
+void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double scale, int depth) {
   ++counters_.cells;
   ++cells_;
-  Vec3 low = cell.b[0], high = cell.b[0];
-  for (const Vec3& p : cell.b) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  if (low.x() > error_ || high.x() < -error_ || low.y() > error_ || high.y() < -error_) return;
-  if (high.z() < near_ - error_ || low.z() > best_.distance + error_) return;
+  const Range x(cell.x);
+  if (x.low > error_ || x.high < -error_) return;
+  const Range y(cell.y);
+  if (y.low > error_ || y.high < -error_) return;
+  const Range z(cell.z);
+  if (z.high < near_ - error_ || z.low > best_.distance + error_) return;
 
   const bool is_point = depth >= deepest || (cells_ > patience && depth >= deepest_out_of_patience) ||
-                        (std::max(high.x(), -low.x()) <= error_ && std::max(high.y(), -low.y()) <= error_);
+                        std::max({x.high, -x.low, y.high, -y.low}) <= error_;
   if (is_point) {
-    const Parameter centre = D::centre();
-    accept(centre, std::max(cell.first_order(centre).position.z(), near_), origin, scale);
+    const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
+    accept(D::centre(), std::max(distance, near_), origin, scale);
     return;
   }
 
   Matrix jacobian;
-  jacobian << plane(cell.mean_du()), plane(cell.mean_dv());
+  jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
   const double determinant = jacobian.determinant();
   if (std::abs(determinant) <= 1e-12 * jacobian.col(0).norm() * jacobian.col(1).norm())
     return split(cell, origin, scale, depth);
   const Matrix flattening = jacobian.inverse();
 
   // The hull test again, along the cell's own axes.
-  const Eigen::Vector2d slack = error_ * flattening.cwiseAbs().rowwise().sum() * (1 + 1e-10);
-  Eigen::Vector2d flat_low = flattening * plane(cell.b[0]), flat_high = flat_low;
-  for (const Vec3& p : cell.b) {
-    const Eigen::Vector2d g = flattening * plane(p);
-    flat_low = flat_low.cwiseMin(g);
-    flat_high = flat_high.cwiseMax(g);
-  }
-  if ((flat_low.array() > slack.array()).any() || (flat_high.array() < -slack.array()).any()) return;
+  std::array<double, 16> flat_x, flat_y;
+  const double slack_x = error_ * (std::abs(flattening(0, 0)) + std::abs(flattening(0, 1))) * (1 + 1e-10);
+  combine(flattening(0, 0), cell.x, flattening(0, 1), cell.y, flat_x);
+  const Range along_u(flat_x);
+  if (along_u.low > slack_x || along_u.high < -slack_x) return;
+  const double slack_y = error_ * (std::abs(flattening(1, 0)) + std::abs(flattening(1, 1))) * (1 + 1e-10);
+  combine(flattening(1, 0), cell.x, flattening(1, 1), cell.y, flat_y);
+  const Range along_v(flat_y);
+  if (along_v.low > slack_y || along_v.high < -slack_y) return;
 
-  // |identity - d(flattening * f)| over the cell, at most the root of the largest deviations of both hulls.
-  double deviation_u = 0, deviation_v = 0;
-  cell.visit_du([&](const Vec3& d) {
-    deviation_u = std::max(deviation_u, (flattening * plane(d) - Eigen::Vector2d::UnitX()).squaredNorm());
-  });
-  cell.visit_dv([&](const Vec3& d) {
-    deviation_v = std::max(deviation_v, (flattening * plane(d) - Eigen::Vector2d::UnitY()).squaredNorm());
-  });
-  const double contraction = std::sqrt(deviation_u + deviation_v) + 1e-9;
-  if (contraction < 0.95) {
+  const double share = contraction(flat_x, flat_y);
+  if (share < 0.95) {
     PatchHit hit;
-    const Verdict verdict = newton(cell, flattening, contraction, hit);
+    const Verdict verdict = newton(cell, flattening, share, hit);
     if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
   split(cell, origin, scale, depth);
 }
 
+/// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
+/// deviations of both derivative hulls from the unit vectors. The roundings of some 10 u a value are far below the 1e-9
+/// added.
+template <class Bezier>
+double ExactFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const {
+  constexpr double degree = Bezier::degree;
+  double along_u = 0, along_v = 0;
+  for (const auto& [from, to] : Bezier::u_pairs) {
+    const double dx = degree * (x[to] - x[from]) - 1, dy = degree * (y[to] - y[from]);
+    along_u = std::max(along_u, dx * dx + dy * dy);
+  }
+  for (const auto& [from, to] : Bezier::v_pairs) {
+    const double dx = degree * (x[to] - x[from]), dy = degree * (y[to] - y[from]) - 1;
+    along_v = std::max(along_v, dx * dx + dy * dy);
+  }
+  return std::sqrt(along_u + along_v) + 1e-9;
+}
+
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
 /// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
 /// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at.
 template <class Bezier>
-auto ExactFinish<Bezier>::newton(const Bezier& cell, const Matrix& flattening, double contraction, PatchHit& hit)
+auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit)
     -> Verdict {
   const double slack = error_ * flattening.norm() * 1.5;
-  const Parameter start = D::centre();
-  Parameter at = D::nearest(start - flattening * plane(cell.first_order(start).position));
-  double residual_before = std::numeric_limits<double>::infinity();
+  Parameter at = D::centre();
+  double best_residual = std::numeric_limits<double>::infinity();
   constexpr int most_steps = 12;
   for (int step = 0; step < most_steps; ++step) {
     ++counters_.newton_steps;
-    const FirstOrder here = cell.first_order(at);
-    const Eigen::Vector2d f = plane(here.position);
+    const typename Bezier::Weights weights = Bezier::weights(at);
+    const Eigen::Vector2d f(dot(cell.x, weights.value), dot(cell.y, weights.value));
     const double residual = f.cwiseAbs().maxCoeff();
     if (residual <= error_) {
-      // One more step wins the last digits; keep whichever is nearer the ray.
-      if (residual >= residual_before) return Verdict::found;
-      hit = {at, here.position.z()};
-      residual_before = residual;
-    } else if (residual_before <= error_) {
-      return Verdict::found;
+      // Close enough to count; the step after this one wins the last digits, if there are any left.
+      if (residual >= best_residual) return Verdict::found;
+      best_residual = residual;
+      hit = {at, dot(cell.z, weights.value)};
+    } else {
+      if (best_residual <= error_) return Verdict::found;
+      const Eigen::Vector2d g = flattening * f;
+      const Parameter image = at - g;
+      const double reach = contraction * g.norm() / (1 - contraction) + slack;
+      if ((image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
     }
-    const Eigen::Vector2d g = flattening * f;
-    const Parameter image = at - g;
-    const double reach = contraction * g.norm() / (1 - contraction) + slack;
-    if (residual > error_ && (image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
-
     Matrix jacobian;
-    jacobian << plane(here.du), plane(here.dv);
+    jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
     const Parameter next = D::nearest(at - jacobian.inverse() * f);
-    if (next == at || !next.allFinite()) return residual <= error_ ? Verdict::found : Verdict::unknown;
-    if (residual > error_) residual_before = std::numeric_limits<double>::infinity();
+    if (next == at || !next.allFinite()) break;
     at = next;
   }
-  return residual_before <= error_ ? Verdict::found : Verdict::unknown;
+  return best_residual <= error_ ? Verdict::found : Verdict::unknown;
 }
 
 template <class Bezier>
-void ExactFinish<Bezier>::split(const Bezier& cell, const Parameter& origin, double scale, int depth) {
-  const std::array<Bezier, 4> children = cell.split();
+void ExactFinish<Bezier>::split(const Net& cell, const Parameter& origin, double scale, int depth) {
+  const std::array<Bezier, 4> quarters = cell.bezier<Bezier>().split();
+  std::array<Net, 4> children;
   std::array<std::pair<double, int>, 4> order;
   for (std::size_t k = 0; k < 4; ++k) {
-    double nearest = children[k].b[0].z();
-    for (const Vec3& p : children[k].b) nearest = std::min(nearest, p.z());
-    order[k] = {nearest, static_cast<int>(k)};
+    children[k] = Net(quarters[k]);
+    order[k] = {Range(children[k].z).low, static_cast<int>(k)};
   }
   std::sort(order.begin(), order.end());
   for (const auto& [distance, k] : order) {

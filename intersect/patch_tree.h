@@ -5,6 +5,7 @@
 
 #include "../schemes/patch.h"
 #include "box.h"
+#include "net.h"
 
 namespace shaolin {
 
@@ -23,7 +24,7 @@ class PatchNode {
  public:
   using Regular = typename S::Regular;
   using D = Domain<S::face_kind>;
-  using Children = std::array<PatchNode, 4>;
+  struct Children;
 
   PatchNode() = default;
 
@@ -32,14 +33,14 @@ class PatchNode {
   PatchNode(Patch<S> patch, int level, TreeTotals& totals) : level_(level) {
     set(std::move(patch));
     if (is_regular()) return;
-    Box tighter;
-    for (const PatchNode& child : children(totals)) tighter.add(child.box());
-    box_ = tighter;
+    const Children& quarters = children(totals);
+    box_ = Box();
+    for (const PatchNode& child : quarters.nodes) box_.add(child.box());
   }
-  ~PatchNode() { delete children_.load(); }
+  ~PatchNode();
 
   bool is_regular() const { return regular_ != nullptr; }
-  const Regular& regular() const { return *regular_; }
+  const Net& regular() const { return *regular_; }
   const Patch<S>& irregular() const { return *irregular_; }
   const Box& box() const { return box_; }
   int level() const { return level_; }
@@ -55,42 +56,25 @@ class PatchNode {
   /// beyond eight splits of a polynomial the finish splits on its own.
   bool is_leaf() const { return leaf_; }
 
+  /// True for an irregular patch so far down that it may lie within rounding of a ray.
+  bool is_tiny() const { return !is_regular() && level_ >= tiny_level; }
+
+  /// The four children, or null if no ray needed them yet.
+  const Children* known_children() const { return children_.load(std::memory_order_acquire); }
+
   /// The four children, made now if no ray needed them before. Thread-safe; O(points).
-  const Children& children(TreeTotals& totals) const {
-    if (const Children* known = children_.load(std::memory_order_acquire)) return *known;
-    std::unique_ptr<Children> made = split();
-    Children* expected = nullptr;
-    if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-    std::uint64_t bytes = sizeof(Children);
-    for (const PatchNode& child : *made) bytes += child.own_bytes();
-    totals.bytes += bytes;
-    ++totals.patches_split;
-    return *made.release();
-  }
+  const Children& children(TreeTotals& totals) const;
 
   std::uint64_t own_bytes() const {
-    return regular_ ? sizeof(Regular) : sizeof(Patch<S>) + irregular_->points.capacity() * sizeof(Vec3);
+    return regular_ ? sizeof(Net) : sizeof(Patch<S>) + irregular_->points.capacity() * sizeof(Vec3);
   }
 
  private:
   static constexpr int deepest_polynomial_split = 8;
+  /// No patch halves faster than its edges do, so none shrinks to 2^-52 of its face in fewer levels.
+  static constexpr int tiny_level = 24;
 
-  std::unique_ptr<Children> split() const {
-    auto children = std::make_unique<Children>();
-    std::array<Regular, 4> quarters;
-    if (is_regular()) quarters = regular_->split();
-    for (std::size_t k = 0; k < 4; ++k) {
-      PatchNode& child = (*children)[k];
-      child.place(*this, static_cast<int>(k));
-      if (is_regular()) {
-        child.regular_level_ = regular_level_;
-        child.set(quarters[k]);
-      } else {
-        child.set(irregular_->child(static_cast<int>(k)));
-      }
-    }
-    return children;
-  }
+  std::unique_ptr<Children> split() const;
 
   void place(const PatchNode& parent, int k) {
     origin_ = parent.to_root(D::to_parent(k, Parameter::Zero()));
@@ -108,7 +92,7 @@ class PatchNode {
   }
 
   void set(const Regular& piece) {
-    regular_ = std::make_unique<Regular>(piece);
+    regular_ = std::make_unique<Net>(piece);
     bound(piece.b);
     leaf_ = level_ - regular_level_ >= deepest_polynomial_split || is_flat(piece);
   }
@@ -124,15 +108,16 @@ class PatchNode {
 
   static bool is_flat(const Regular& piece) {
     constexpr double share = 0.25;
-    const Vec3 du = piece.mean_du(), dv = piece.mean_dv();
-    const double limit_u = share * share * du.squaredNorm(), limit_v = share * share * dv.squaredNorm();
-    bool flat = true;
-    piece.visit_du([&](const Vec3& d) { flat = flat && (d - du).squaredNorm() <= limit_u; });
-    piece.visit_dv([&](const Vec3& d) { flat = flat && (d - dv).squaredNorm() <= limit_v; });
-    return flat;
+    const auto stays = [&](const auto& pairs, const Vec3& mean) {
+      return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+        const Vec3 derivative = Regular::degree * (piece.b[pair[1]] - piece.b[pair[0]]);
+        return (derivative - mean).squaredNorm() <= share * share * mean.squaredNorm();
+      });
+    };
+    return stays(Regular::u_pairs, Regular::mean_du(piece.b)) && stays(Regular::v_pairs, Regular::mean_dv(piece.b));
   }
 
-  std::unique_ptr<Regular> regular_;
+  std::unique_ptr<Net> regular_;
   std::unique_ptr<Patch<S>> irregular_;
   Box box_;
   Parameter origin_ = Parameter::Zero();
@@ -142,5 +127,49 @@ class PatchNode {
   bool leaf_ = false;
   mutable std::atomic<Children*> children_{nullptr};
 };
+
+/// The four children with their boxes side by side.
+template <Scheme S>
+struct PatchNode<S>::Children {
+  std::array<PatchNode, 4> nodes;
+  FourBoxes boxes;
+};
+
+template <Scheme S>
+PatchNode<S>::~PatchNode() {
+  delete children_.load();
+}
+
+template <Scheme S>
+auto PatchNode<S>::children(TreeTotals& totals) const -> const Children& {
+  if (const Children* known = known_children()) return *known;
+  std::unique_ptr<Children> made = split();
+  Children* expected = nullptr;
+  if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
+  std::uint64_t bytes = sizeof(Children);
+  for (const PatchNode& child : made->nodes) bytes += child.own_bytes();
+  totals.bytes += bytes;
+  ++totals.patches_split;
+  return *made.release();
+}
+
+template <Scheme S>
+auto PatchNode<S>::split() const -> std::unique_ptr<Children> {
+  auto children = std::make_unique<Children>();
+  std::array<Regular, 4> quarters;
+  if (is_regular()) quarters = regular_->template bezier<Regular>().split();
+  for (std::size_t k = 0; k < 4; ++k) {
+    PatchNode& child = children->nodes[k];
+    child.place(*this, static_cast<int>(k));
+    if (is_regular()) {
+      child.regular_level_ = regular_level_;
+      child.set(quarters[k]);
+    } else {
+      child.set(irregular_->child(static_cast<int>(k)));
+    }
+    children->boxes.set(k, child.box_);
+  }
+  return children;
+}
 
 }  // namespace shaolin

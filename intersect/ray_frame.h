@@ -1,6 +1,7 @@
 #pragma once
 /// The planes RP and CP of Mueller et al. 2003, section 6, as a change of coordinates.
 #include "box.h"
+#include "net.h"
 
 namespace shaolin {
 
@@ -24,12 +25,24 @@ class RayFrame {
     return {rp_.x() * x + rp_.y() * y + rp_.z() * z, cp_.x() * x + cp_.y() * y + cp_.z() * z,
             direction_.x() * x + direction_.y() * y + direction_.z() * z};
   }
-  template <class Points>
-  void project(const Points& from, Points& to) const {
-    for (std::size_t i = 0; i < from.size(); ++i) to[i] = project(from[i]);
+  void project(const Net& from, Net& to) const {
+    const Four ox(origin_.x()), oy(origin_.y()), oz(origin_.z());
+    for (std::size_t i = 0; i < 16; i += 4) {
+      const Four x = Four(&from.x[i]) - ox, y = Four(&from.y[i]) - oy, z = Four(&from.z[i]) - oz;
+      const auto along = [&](const Vec3& axis) { return Four(axis.x()) * x + Four(axis.y()) * y + Four(axis.z()) * z; };
+      along(rp_).store(&to.x[i]);
+      along(cp_).store(&to.y[i]);
+      along(direction_).store(&to.z[i]);
+    }
   }
 
   /// The bounds of points in the ray's coordinates.
+  Box hull(const Net& points) const {
+    Net projected;
+    project(points, projected);
+    const Range x(projected.x), y(projected.y), z(projected.z);
+    return {Vec3(x.low, y.low, z.low), Vec3(x.high, y.high, z.high)};
+  }
   template <class Points>
   Box hull(const Points& points) const {
     Box box;

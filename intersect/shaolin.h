@@ -8,6 +8,7 @@
 
 #include "../schemes/scheme_surface.h"
 #include "bvh.h"
+#include "corner_bounds.h"
 #include "counters.h"
 #include "exact_finish.h"
 #include "patch_tree.h"
@@ -21,7 +22,7 @@ enum class Query { closest, any };
 template <Scheme S, template <class> class Finish>
 class ShaoLin {
  public:
-  /// Bounds every face by the box of its control neighbourhood. O(n log n); nothing is refined yet.
+  /// Bounds every face (see corner_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet.
   explicit ShaoLin(const SchemeSurface<S>& surface);
 
   /// The hit with the least t in [tmin, tmax]. Of hits at equal distance, the face visited first wins; the order of
@@ -49,10 +50,11 @@ class ShaoLin {
     Node root;
     Vec3 normal;
     int sub;
+    FourBoxes box{};  ///< the root's, in the first place
   };
   /// All start patches of a face; made when a ray first reaches the face.
   struct StartPatches {
-    std::vector<std::unique_ptr<const StartPatch>> patches;
+    std::vector<std::unique_ptr<StartPatch>> patches;
   };
 
   /// A place in a node's parameters, met at a distance along the ray.
@@ -77,7 +79,7 @@ class ShaoLin {
   template <Query query>
   void descend(const Node& node, Search& search) const;
   void finish(const Node& node, Search& search) const;
-  void finish_irregular(const Node& node, const Vec3& low, const Vec3& high, Search& search) const;
+  void finish_irregular(const Node& node, const Box& hull, Search& search) const;
   template <Query query>
   Found search(const TraversalRay& ray, RayCounters& counters) const;
   LimitSample sample(const Found& found, const SurfaceParameter& at) const;
@@ -100,18 +102,12 @@ class ShaoLin {
 template <Scheme S, template <class> class Finish>
 ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface) {
   const SubdivisionMesh<S>& mesh = surface.mesh();
-  // A face's neighbourhood is the union of its corners' rings, so one pass collects the rings' boxes.
-  std::vector<Box> rings(static_cast<std::size_t>(mesh.vertex_count()));
-  for (const int f : mesh.faces()) {
-    Box box;
-    for (const int v : mesh.face(f)) box.add(mesh.point(v));
-    for (const int v : mesh.face(f)) rings[static_cast<std::size_t>(v)].add(box);
-  }
+  const std::vector<Box> corners = corner_bounds(mesh);
   std::vector<Box> boxes;
   for (const int f : mesh.faces()) {
     if (!mesh.has_limit(f)) continue;
     Box box;
-    for (const int v : mesh.face(f)) box.add(rings[static_cast<std::size_t>(v)]);
+    for (const int v : mesh.face(f)) box.add(corners[static_cast<std::size_t>(v)]);
     const double slack = 160 * unit_roundoff * box.largest_coordinate();
     box.lower.array() -= slack;
     box.upper.array() += slack;
@@ -149,6 +145,7 @@ auto ShaoLin<S, Finish>::start_patches(int primitive) const -> const StartPatche
     Patch<S> patch = by_corner ? whole.child(sub) : whole;
     const Vec3 normal = plane_normal(patch);
     made->patches.emplace_back(new StartPatch{Node(std::move(patch), by_corner, totals_), normal, sub});
+    made->patches.back()->box.set(0, made->patches.back()->root.box());
     bytes += sizeof(StartPatch) + made->patches.back()->root.own_bytes();
   }
   StartPatches* expected = nullptr;
@@ -168,7 +165,7 @@ auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) 
       ray, [&] { return far; },
       [&](int primitive, double) {
         for (const auto& start : start_patches(primitive).patches) {
-          if (entry_distance(start->root.box(), ray, far) == missed) continue;
+          if (BoxOrder(start->box, ray, far).count() == 0) continue;
           Search search{ray, RayFrame(ray, start->normal), far, counters};
           descend<query>(start->root, search);
           if (!search.found.node) continue;
@@ -208,45 +205,42 @@ template <Scheme S, template <class> class Finish>
 LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
   if (!found.node->is_regular() || found.node->level() > deepest_absolute) return *surface_.evaluate(at);
-  return detail::sample(found.node->regular(), found.hit.at, Vec3::Zero(), 1 / found.node->scale());
+  return detail::sample(found.node->regular().template bezier<Regular>(), found.hit.at, Vec3::Zero(),
+                        1 / found.node->scale());
 }
 
 /// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,
-/// front to back.
+/// front to back. A patch that is split already has been through the tests for another ray; its children's boxes are
+/// quicker to ask. So that this changes no answer, the tests here pass whatever a leaf's may pass: twice its error.
 template <Scheme S, template <class> class Finish>
 template <Query query>
 void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
   if (node.is_leaf()) return finish(node, search);
 
-  ++search.counters.hull_tests;
-  const Box hull = node.is_regular() ? search.frame.hull(node.regular().b) : search.frame.hull(node.irregular().points);
-  const Vec3 &low = hull.lower, &high = hull.upper;
-  const double error = search.frame.error(node.box());
-  if (low.x() > error || high.x() < -error || low.y() > error || high.y() < -error) return;
-  if (high.z() < search.ray.near - error || low.z() > search.far + error) return;
-  // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
-  if (!node.is_regular() && std::max(std::max(high.x(), -low.x()), std::max(high.y(), -low.y())) <= error)
-    return finish_irregular(node, low, high, search);
-
-  const typename Node::Children& children = node.children(totals_);
-  std::array<std::pair<double, int>, 4> shadow_list;
-  std::size_t shadowed = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double entry = entry_distance(children[k].box(), search.ray, search.far);
-    if (entry != missed) shadow_list[shadowed++] = {entry, static_cast<int>(k)};
+  const typename Node::Children* children = node.known_children();
+  if (!children || node.is_tiny()) {
+    ++search.counters.hull_tests;
+    const Box hull = node.is_regular() ? search.frame.hull(node.regular()) : search.frame.hull(node.irregular().points);
+    const Vec3 &low = hull.lower, &high = hull.upper;
+    const double error = search.frame.error(node.box());
+    if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;
+    // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
+    if (!node.is_regular() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= error)
+      return finish_irregular(node, hull, search);
+    children = &node.children(totals_);
   }
-  std::sort(shadow_list.begin(), shadow_list.begin() + static_cast<std::ptrdiff_t>(shadowed));
-  for (std::size_t i = 0; i < shadowed; ++i) {
-    if (shadow_list[i].first > search.far) break;
-    descend<query>(children[static_cast<std::size_t>(shadow_list[i].second)], search);
+
+  const BoxOrder shadow_list(children->boxes, search.ray, search.far);
+  for (int i = 0; i < shadow_list.count() && shadow_list.distance(i) <= search.far; ++i) {
+    descend<query>(children->nodes[shadow_list.box(i)], search);
     if (query == Query::any && search.found.node) return;
   }
 }
 
 template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
-  Regular projected;
-  search.frame.project(node.regular().b, projected.b);
+  Net projected;
+  search.frame.project(node.regular(), projected);
   Finish<Regular> solver(search.frame.error(node.box()), search.ray.near, search.far, search.counters);
   if (!solver.solve(projected)) return;
   search.found.node = &node;
@@ -256,8 +250,10 @@ void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
 
 /// The whole patch is one point to within rounding: the irregular corner's limit.
 template <Scheme S, template <class> class Finish>
-void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Vec3& low, const Vec3& high, Search& search) const {
-  const double distance = std::max(0.5 * (low.z() + high.z()), search.ray.near);
+void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Box& hull, Search& search) const {
+  const double error = search.frame.error(node.box());
+  if (hull.upper.z() < search.ray.near - error) return;
+  const double distance = std::max(hull.centre().z(), search.ray.near);
   if (distance > search.far) return;
   search.found.node = &node;
   search.found.hit = {Domain<S::face_kind>::centre(), distance};

@@ -1,21 +1,18 @@
 #pragma once
 /// The regular patch of Catmull-Clark: a bicubic polynomial, in Bezier form.
 #include <array>
+#include <cstdint>
 
 #include "domain.h"
 #include "limit_sample.h"
 
 namespace shaolin {
 
-/// Position and first derivatives at a parameter.
-struct FirstOrder {
-  Vec3 position, du, dv;
-};
-
 /// Sixteen Bezier points, b[4 j + i] at u = i / 3, v = j / 3. The surface lies in their convex hull.
 struct BezierQuad {
   using DomainType = Domain<FaceKind::quad>;
   static constexpr int size = 16;
+  static constexpr int degree = 3;
   static constexpr int spline_size = 16;
   std::array<Vec3, size> b;
 
@@ -28,16 +25,11 @@ struct BezierQuad {
     return result;
   }
 
-  FirstOrder first_order(const Parameter& at) const {
+  Vec3 position(const Parameter& at) const {
     const Bernstein u(at.x()), v(at.y());
-    FirstOrder result{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    for (std::size_t j = 0; j < 4; ++j) {
-      const Vec3 row = combine(u.value, j), row_du = combine(u.first, j);
-      result.position += v.value[j] * row;
-      result.du += v.value[j] * row_du;
-      result.dv += v.first[j] * row;
-    }
-    return result;
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = 0; j < 4; ++j) sum += v.value[j] * combine(u.value, j);
+    return sum;
   }
 
   Derivatives derivatives(const Parameter& at) const {
@@ -66,22 +58,39 @@ struct BezierQuad {
     return quarter;
   }
 
-  /// Calls visit(vector) for the control points of the u derivative, then of the v derivative: their hulls hold the
-  /// derivatives.
-  template <class Visit>
-  void visit_du(Visit visit) const {
-    for (std::size_t j = 0; j < 4; ++j)
-      for (std::size_t i = 0; i < 3; ++i) visit(Vec3(3 * (b[4 * j + i + 1] - b[4 * j + i])));
+  /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
+  /// derivative, and of the v derivative, whose hulls hold the derivatives.
+  using Pair = std::array<std::uint8_t, 2>;
+  static constexpr std::array<Pair, 12> u_pairs{
+      {{0, 1}, {1, 2}, {2, 3}, {4, 5}, {5, 6}, {6, 7}, {8, 9}, {9, 10}, {10, 11}, {12, 13}, {13, 14}, {14, 15}}};
+  static constexpr std::array<Pair, 12> v_pairs{
+      {{0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 8}, {5, 9}, {6, 10}, {7, 11}, {8, 12}, {9, 13}, {10, 14}, {11, 15}}};
+
+  /// Derivatives of the mean plane, from the corners; per coordinate or for points.
+  template <class Value>
+  static Value mean_du(const std::array<Value, 16>& p) {
+    return 0.5 * ((p[3] - p[0]) + (p[15] - p[12]));
   }
-  template <class Visit>
-  void visit_dv(Visit visit) const {
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t i = 0; i < 4; ++i) visit(Vec3(3 * (b[4 * j + i + 4] - b[4 * j + i])));
+  template <class Value>
+  static Value mean_dv(const std::array<Value, 16>& p) {
+    return 0.5 * ((p[12] - p[0]) + (p[15] - p[3]));
   }
 
-  /// Derivatives of the mean plane, from the corners.
-  Vec3 mean_du() const { return 0.5 * ((b[3] - b[0]) + (b[15] - b[12])); }
-  Vec3 mean_dv() const { return 0.5 * ((b[12] - b[0]) + (b[15] - b[3])); }
+  /// What each control point weighs in the position and the first derivatives at a parameter.
+  struct Weights {
+    std::array<double, 16> value, du, dv;
+  };
+  static Weights weights(const Parameter& at) {
+    const Bernstein u(at.x()), v(at.y());
+    Weights w;
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t i = 0; i < 4; ++i) {
+        w.value[4 * j + i] = v.value[j] * u.value[i];
+        w.du[4 * j + i] = v.value[j] * u.first[i];
+        w.dv[4 * j + i] = v.first[j] * u.value[i];
+      }
+    return w;
+  }
 
  private:
   /// The cubic Bernstein polynomials and their derivatives.

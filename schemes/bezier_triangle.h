@@ -1,6 +1,7 @@
 #pragma once
 /// The regular patch of Loop's scheme: a quartic polynomial on a triangle, in Bezier form.
 #include <array>
+#include <cstdint>
 
 #include "bezier_quad.h"
 #include "domain.h"
@@ -32,13 +33,10 @@ struct BezierTriangle {
   /// (Mueller et al. 2003, section 4; the last from the terms u^2 v w of the box spline's basis in Stam 1999).
   static BezierTriangle from_spline(const std::array<Vec3, spline_size>& p);
 
-  FirstOrder first_order(const Parameter& at) const {
+  Vec3 position(const Parameter& at) const {
     Net net = b;
-    for (int n = degree; n > 1; --n) casteljau(net, n, at);
-    const Vec3 du = degree * (net[1] - net[0]);
-    const Vec3 dv = degree * (net[2] - net[0]);
-    casteljau(net, 1, at);
-    return {net[0], du, dv};
+    for (int n = degree; n > 0; --n) casteljau(net, n, at);
+    return net[0];
   }
 
   Derivatives derivatives(const Parameter& at) const {
@@ -60,22 +58,29 @@ struct BezierTriangle {
     return {corner_child(0), corner_child(1), corner_child(2), middle_child()};
   }
 
-  /// Calls visit(vector) for the control points of the u derivative, or of the v derivative: their hulls hold the
-  /// derivatives.
-  template <class Visit>
-  void visit_du(Visit visit) const {
-    for (int j = 0; j < degree; ++j)
-      for (int i = 0; i + j < degree; ++i) visit(Vec3(degree * (b[index(i + 1, j)] - b[index(i, j)])));
+  /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
+  /// derivative, and of the v derivative, whose hulls hold the derivatives.
+  using Pair = std::array<std::uint8_t, 2>;
+  static constexpr std::array<Pair, 10> u_pairs{
+      {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {5, 6}, {6, 7}, {7, 8}, {9, 10}, {10, 11}, {12, 13}}};
+  static constexpr std::array<Pair, 10> v_pairs{
+      {{0, 5}, {1, 6}, {2, 7}, {3, 8}, {5, 9}, {6, 10}, {7, 11}, {9, 12}, {10, 13}, {12, 14}}};
+
+  /// Derivatives of the chord triangle; per coordinate or for points.
+  template <class Value, std::size_t count>
+  static Value mean_du(const std::array<Value, count>& p) {
+    return p[4] - p[0];
   }
-  template <class Visit>
-  void visit_dv(Visit visit) const {
-    for (int j = 0; j < degree; ++j)
-      for (int i = 0; i + j < degree; ++i) visit(Vec3(degree * (b[index(i, j + 1)] - b[index(i, j)])));
+  template <class Value, std::size_t count>
+  static Value mean_dv(const std::array<Value, count>& p) {
+    return p[14] - p[0];
   }
 
-  /// Derivatives of the chord triangle.
-  Vec3 mean_du() const { return b[index(4, 0)] - b[0]; }
-  Vec3 mean_dv() const { return b[index(0, 4)] - b[0]; }
+  /// What each control point weighs in the position and the first derivatives at a parameter; one place is unused.
+  struct Weights {
+    std::array<double, 16> value, du, dv;
+  };
+  static Weights weights(const Parameter& at);
 
  private:
   using Net = std::array<Vec3, size>;
@@ -161,6 +166,26 @@ inline BezierTriangle BezierTriangle::middle_child() const {
     if (e0 < degree) after0 = midpoint_step(after0, degree - e0, 0);
   }
   return child;
+}
+
+/// With the cubic Bernstein polynomials c on the triangle, 10 of them: the weights of the derivatives are 4 (c(i-1, j)
+/// - c(i, j)) and 4 (c(i, j-1) - c(i, j)), and those of the position w c(i, j) + u c(i-1, j) + v c(i, j-1).
+inline auto BezierTriangle::weights(const Parameter& at) -> Weights {
+  const double u = at.x(), v = at.y(), w = 1 - u - v;
+  const std::array<double, 10> cubic{w * w * w,     3 * w * w * u, 3 * w * u * u, u * u * u,     3 * w * w * v,
+                                     6 * w * u * v, 3 * u * u * v, 3 * w * v * v, 3 * u * v * v, v * v * v};
+  Weights result{};
+  for (std::size_t k = 0; k < u_pairs.size(); ++k) {
+    const auto from = u_pairs[k][0], along_u = u_pairs[k][1], along_v = v_pairs[k][1];
+    result.value[from] += w * cubic[k];
+    result.value[along_u] += u * cubic[k];
+    result.value[along_v] += v * cubic[k];
+    result.du[from] -= degree * cubic[k];
+    result.du[along_u] += degree * cubic[k];
+    result.dv[from] -= degree * cubic[k];
+    result.dv[along_v] += degree * cubic[k];
+  }
+  return result;
 }
 
 }  // namespace shaolin

@@ -41,7 +41,7 @@ LimitSample sample(const Regular& piece, const Parameter& at, const Vec3& anchor
   d.duu *= scale * scale;
   d.duv *= scale * scale;
   d.dvv *= scale * scale;
-  return {anchor + piece.first_order(at).position, normal, d};
+  return {anchor + piece.position(at), normal, d};
 }
 
 }  // namespace detail

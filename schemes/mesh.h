@@ -11,7 +11,8 @@
 
 namespace shaolin {
 
-/// The indices 0, 1, ... count - 1, to iterate over. (std::views::iota, but for Clang 14, which cannot compile GCC 12's.)
+/// The indices 0, 1, ... count - 1, to iterate over. (std::views::iota, but for Clang 14, which cannot compile GCC
+/// 12's.)
 struct IndexRange {
   struct Iterator {
     int index;

@@ -10,6 +10,7 @@
 #include "tools/cli/info.h"
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
+#include "tools/cli/validate.h"
 
 namespace shaolin {
 namespace {
@@ -46,6 +47,7 @@ int parse_and_run(int argc, char** argv) {
   add_query(app, command);
   add_eval(app, command);
   add_info(app, command);
+  add_validate(app, command);
 
   try {
     app.parse(argc, argv);

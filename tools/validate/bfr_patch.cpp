@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "tools/validate/face_list.h"
+
 namespace shaolin {
 
 namespace Bfr = OpenSubdiv::Bfr;
@@ -18,13 +20,6 @@ bool has_chaikin_creases(const TaggedMesh& mesh, const SubdivisionRules& rules) 
                      [](float sharpness) { return sharpness > 0 && sharpness < osd_infinite; });
 }
 
-bool has_valence_two(const TaggedMesh& mesh) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.vertex_faces.count(v) == 2 && mesh.vertex_edges.count(v) == 2) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void SurfaceValues::rescale(double factor) {
@@ -34,16 +29,16 @@ void SurfaceValues::rescale(double factor) {
 
 BfrPatch::BfrPatch(const TaggedMesh& mesh, int face, const SubdivisionRules& rules, Bfr::SurfaceFactoryCache& cache)
     : triangular_(rules.triangular()) {
-  CutOut cut = cut_neighbourhood(mesh, face, 1);
-  const int local_face = cut.face_index.at(face);
-  origin_ = cut.mesh.recentre(cut.mesh.face_vertices[local_face][0]);
-  const auto refiner = make_refiner(cut.mesh, rules);
+  FaceList ring = unfolded_ring(mesh, face);
+  origin_ = ring.points[ring.vertices[0]];
+  for (Vec3& p : ring.points) p -= origin_;
+  const auto refiner = make_refiner(ring, rules);
   Bfr::SurfaceFactory::Options options;
   options.SetApproxLevelSmooth(10).SetApproxLevelSharp(10).SetExternalCache(&cache);
   const Bfr::RefinerSurfaceFactory<> factory(*refiner, options);
-  if (!factory.InitVertexSurface(local_face, &surface_)) throw std::runtime_error("Bfr has no surface for a face");
+  if (!factory.InitVertexSurface(0, &surface_)) throw std::runtime_error("Bfr has no surface for a face");
   points_.resize(static_cast<std::size_t>(3 * surface_.GetNumPatchPoints()));
-  surface_.PreparePatchPoints(cut.mesh.points.front().data(), 3, points_.data(), 3);
+  surface_.PreparePatchPoints(ring.points.front().data(), 3, points_.data(), 3);
 }
 
 SurfaceValues BfrPatch::as_bfr_says(double u, double v) const {
@@ -60,7 +55,7 @@ SurfaceValues BfrPatch::as_bfr_says(double u, double v) const {
 /// a small step into the face tells which sign is meant.
 SurfaceValues BfrPatch::evaluate(double u, double v) const {
   SurfaceValues values = as_bfr_says(u, v);
-  if (!triangular_ || regular()) return values;
+  if (!triangular_ || surface_.IsRegular()) return values;
   const double h = 1.0 / (1 << 20), third = 1.0 / 3;
   const double step_u = u < third ? h : -h, step_v = v < third ? h : -h;
   const SurfaceValues there = as_bfr_says(u + step_u, v + step_v);
@@ -73,11 +68,9 @@ SurfaceValues BfrPatch::evaluate(double u, double v) const {
 
 Piece::Piece(const TaggedMesh& mesh, int face, const SubdivisionRules& rules, Bfr::SurfaceFactoryCache& cache)
     : rules_(rules), cache_(cache) {
-  const TaggedMesh around = cut_neighbourhood(mesh, face, 1).mesh;
-  if (!has_chaikin_creases(around, rules)) {
+  if (!has_chaikin_creases(cut_neighbourhood(mesh, face, 1).mesh, rules)) {
     patch_.emplace(mesh, face, rules, cache);
-    if (patch_->regular() || !has_valence_two(around)) return;
-    patch_.reset();
+    return;
   }
   CutOut cut = cut_neighbourhood(mesh, face, 2);
   surroundings_ = std::move(cut.mesh);
@@ -103,7 +96,7 @@ SurfaceValues Piece::evaluate(double u, double v) {
 }
 
 bool may_need_children(const TaggedMesh& mesh, const SubdivisionRules& rules) {
-  return has_chaikin_creases(mesh, rules) || has_valence_two(mesh);
+  return has_chaikin_creases(mesh, rules);
 }
 
 }  // namespace shaolin

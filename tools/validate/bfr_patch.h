@@ -28,8 +28,6 @@ class BfrPatch {
   BfrPatch(const TaggedMesh& mesh, int face, const SubdivisionRules& rules,
            OpenSubdiv::Bfr::SurfaceFactoryCache& cache);
 
-  bool regular() const { return surface_.IsRegular(); }
-
   /// Bfr's own frame: the origin at the face's first vertex, u along its first edge.
   SurfaceValues evaluate(double u, double v) const;
 
@@ -42,12 +40,9 @@ class BfrPatch {
   Vec3 origin_;
 };
 
-/// A face by Bfr where Bfr is right, by its children where it is not. OpenSubdiv 3.5 is wrong, by 1e-6 to 1e-2 of the
-/// face, on
-/// - semi-sharp creases under Chaikin's rule: a child edge's sharpness depends on edges two rings away, which Bfr's
-///   1-ring does not hold;
-/// - irregular faces beside an interior vertex of valence 2: the 1-ring overlaps itself.
-/// Refinement takes both away: the sharpness decays, the irregular corners get neighbourhoods of their own.
+/// A face by Bfr where Bfr is right, by its children where it is not: on semi-sharp creases under Chaikin's rule. There
+/// the sharpness of a child edge depends on edges two rings away, which Bfr's 1-ring does not hold; OpenSubdiv 3.5 is
+/// off by 1e-6 to 1e-3 of the face. With refinement the sharpness decays to 0.
 class Piece {
  public:
   /// The face's 2-ring must be complete in `mesh` where this may happen (see may_need_children()), else its 1-ring.

@@ -208,7 +208,7 @@ int crease_count(const TaggedMesh& mesh, int vertex) {
   return static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](int e) { return mesh.is_crease(e); }));
 }
 
-Sector sector_around(const TaggedMesh& mesh, int face, int corner) {
+Sector sector_around(const TaggedMesh& mesh, int face, int corner, bool across_creases) {
   const int vertex = mesh.face_vertices[face][corner];
   using Corner = std::pair<int, int>;
   std::map<int, Corner> by_next, by_previous;
@@ -217,10 +217,11 @@ Sector sector_around(const TaggedMesh& mesh, int face, int corner) {
     by_next[mesh.next_edge(at.first, at.second)] = at;
     by_previous[mesh.previous_edge(at.first, at.second)] = at;
   }
+  const auto ends_at = [&](int e) { return across_creases ? !mesh.is_manifold(e) : mesh.is_crease(e); };
   const Corner start{face, corner};
   Corner at = start;
   Sector sector;
-  for (int e = mesh.next_edge(face, corner); !mesh.is_crease(e) && by_previous.contains(e);
+  for (int e = mesh.next_edge(face, corner); !ends_at(e) && by_previous.contains(e);
        e = mesh.next_edge(at.first, at.second)) {
     at = by_previous.at(e);
     if (at == start) break;
@@ -230,7 +231,7 @@ Sector sector_around(const TaggedMesh& mesh, int face, int corner) {
     sector.faces.push_back(at.first);
     sector.corners.push_back(at.second);
     const int e = mesh.previous_edge(at.first, at.second);
-    if (mesh.is_crease(e) || !by_next.contains(e)) return sector;
+    if (ends_at(e) || !by_next.contains(e)) return sector;
     at = by_next.at(e);
   } while (at != first);
   sector.closed = true;

@@ -19,14 +19,15 @@ struct CornerLimit {
 /// O(valence x 100), for darts and creases O(valence^3).
 CornerLimit corner_limit(const TaggedMesh& mesh, const SubdivisionRules& rules, int face, int corner);
 
-/// The faces around a corner of a face that are joined by edges that are not infinitely sharp, counter-clockwise.
+/// The faces around a corner of a face that are joined by edges that are not infinitely sharp, or by manifold edges
+/// whatever their sharpness, counter-clockwise.
 struct Sector {
   std::vector<int> faces, corners;  ///< and which of the face's corners the vertex is
   bool closed = false;              ///< they go around the vertex
 
   int size() const { return static_cast<int>(faces.size()); }
 };
-Sector sector_around(const TaggedMesh& mesh, int face, int corner);
+Sector sector_around(const TaggedMesh& mesh, int face, int corner, bool across_creases = false);
 
 /// The number of infinitely sharp edges at a vertex; boundaries and non-manifold edges count.
 int crease_count(const TaggedMesh& mesh, int vertex);

@@ -1,19 +1,18 @@
 #include "tools/validate/oracle.h"
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
-#include <opensubdiv/far/topologyDescriptor.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <unordered_map>
 
 #include "schemes/errors.h"
 #include "tools/validate/corner_chain.h"
 #include "tools/validate/corner_limit.h"
+#include "tools/validate/face_list.h"
 
 namespace shaolin {
 
@@ -46,20 +45,6 @@ Sdc::Options::VtxBoundaryInterpolation boundary_of(BoundaryInterpolation boundar
   return Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
 }
 
-/// Creases on edges that the mesh has; OpenSubdiv would report the others one by one.
-std::vector<SharpEdge> existing_creases(const ControlMesh& mesh) {
-  if (mesh.sharp_edges.empty()) return {};
-  std::set<std::pair<int, int>> edges;
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i) edges.insert(std::minmax(face[i], face[(i + 1) % face.size()]));
-  }
-  std::vector<SharpEdge> creases;
-  std::copy_if(mesh.sharp_edges.begin(), mesh.sharp_edges.end(), std::back_inserter(creases),
-               [&](const SharpEdge& crease) { return edges.contains(std::minmax(crease.a, crease.b)); });
-  return creases;
-}
-
 void expect_triangles(const ControlMesh& mesh) {
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (mesh.face_size(f) == 3) continue;
@@ -72,35 +57,11 @@ void expect_triangles(const ControlMesh& mesh) {
 std::unique_ptr<Far::TopologyRefiner> control_refiner(const ControlMesh& mesh, SubdivisionRules rules) {
   if (rules.triangular()) expect_triangles(mesh);
   rules.options.SetVtxBoundaryInterpolation(boundary_of(mesh.boundary));
-  std::vector<int> sizes, edges, corners;
-  std::vector<float> edge_weights, corner_weights;
-  for (int f = 0; f < mesh.face_count(); ++f) sizes.push_back(mesh.face_size(f));
-  for (const SharpEdge& crease : existing_creases(mesh)) {
-    edges.insert(edges.end(), {crease.a, crease.b});
-    edge_weights.push_back(crease.sharpness);
+  try {
+    return make_refiner(face_list(mesh), rules);
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());
   }
-  for (const SharpVertex& corner : mesh.sharp_vertices) {
-    corners.push_back(corner.vertex);
-    corner_weights.push_back(corner.sharpness);
-  }
-  Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = static_cast<int>(mesh.positions.size());
-  descriptor.numFaces = mesh.face_count();
-  descriptor.numVertsPerFace = sizes.data();
-  descriptor.vertIndicesPerFace = mesh.face_vertices.data();
-  descriptor.numCreases = static_cast<int>(edge_weights.size());
-  descriptor.creaseVertexIndexPairs = edges.data();
-  descriptor.creaseWeights = edge_weights.data();
-  descriptor.numCorners = static_cast<int>(corners.size());
-  descriptor.cornerVertexIndices = corners.data();
-  descriptor.cornerWeights = corner_weights.data();
-  descriptor.numHoles = static_cast<int>(mesh.holes.size());
-  descriptor.holeIndices = mesh.holes.data();
-  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  std::unique_ptr<Far::TopologyRefiner> refiner(
-      Factory::Create(descriptor, Factory::Options(rules.scheme, rules.options)));
-  if (!refiner) throw InputError("OpenSubdiv cannot build the topology of this mesh");
-  return refiner;
 }
 
 /// True if the surface at the vertex is a single regular piece, or two along a crease, once semi-sharp tags are gone.

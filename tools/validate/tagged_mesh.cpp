@@ -221,7 +221,7 @@ int TaggedMesh::previous_vertex(int face, int corner) const {
 }
 
 bool TaggedMesh::is_crease(int edge) const {
-  return edge_faces.count(edge) != 2 || edge_non_manifold[edge] || edge_sharpness[edge] >= osd_infinite;
+  return !is_manifold(edge) || edge_sharpness[edge] >= osd_infinite;
 }
 
 Vec3 TaggedMesh::recentre(int vertex) {

@@ -64,7 +64,9 @@ struct TaggedMesh {
   int previous_edge(int face, int corner) const;
   int next_vertex(int face, int corner) const;
   int previous_vertex(int face, int corner) const;
-  /// Infinitely sharp by tag or because it has not two faces.
+  /// Between two faces that agree about its direction.
+  bool is_manifold(int edge) const { return edge_faces.count(edge) == 2 && !edge_non_manifold[edge]; }
+  /// Infinitely sharp, by tag or because it is not manifold.
   bool is_crease(int edge) const;
 
   /// Moves the points so that `vertex` is the origin; returns where it was.

@@ -1,0 +1,68 @@
+#pragma once
+/// Boxes for faces that nobody has refined yet, half as wide as their control neighbourhoods.
+#include <vector>
+
+#include "../schemes/subdivision_mesh.h"
+#include "box.h"
+
+namespace shaolin {
+
+namespace detail {
+
+/// a + s b for boxes and points, with s >= 0.
+inline Box sum(const Box& a, const Box& b, double s) { return {a.lower + s * b.lower, a.upper + s * b.upper}; }
+inline Box scaled(const Box& a, double s) { return {s * a.lower, s * a.upper}; }
+
+}  // namespace detail
+
+/// For every vertex a box of the points that one refinement step makes around it: of itself, its edges and its faces.
+/// A face's limit lies in the hull of the points around its corners, so in the union of their boxes. Only for schemes
+/// whose masks are not negative.
+///
+/// The new points are bounded from two boxes, of the neighbours along edges and of the new face points (quad split), by
+/// the scheme's masks in interval arithmetic: an edge point is end (v + neighbour) + side (two face points, or on
+/// triangles two neighbours), a vertex point is the mask's mean of v, neighbours and face points; every crease or
+/// corner rule, and every blend with one, lies between v, the midpoint with a neighbour, and the smooth point.
+/// O(size), without walking rings.
+template <Scheme S>
+std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
+  constexpr bool quads = S::face_kind == FaceKind::quad;
+  const auto count = static_cast<std::size_t>(mesh.vertex_count());
+  std::vector<Box> neighbours(count), face_points(count);
+  std::vector<int> valence(count, 0);
+  for (const int f : mesh.faces()) {
+    const std::vector<int>& v = mesh.face(f);
+    const std::size_t n = v.size();
+    const Vec3 middle = face_point({mesh.points().data(), v.data(), static_cast<int>(n)});
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(v[i]);
+      neighbours[at].add(mesh.point(v[(i + 1) % n]));
+      neighbours[at].add(mesh.point(v[(i + n - 1) % n]));
+      face_points[at].add(middle);
+      ++valence[at];
+    }
+  }
+
+  std::vector<Box> result(count);
+  const EdgeMask edge = S::smooth_edge();
+  for (const int v : mesh.vertices()) {
+    const auto at = static_cast<std::size_t>(v);
+    const int n = valence[at];
+    if (n == 0) continue;
+    const Box point{mesh.point(v), mesh.point(v)};
+    const Box& sides = quads ? face_points[at] : neighbours[at];
+    const Box ends = detail::sum(point, neighbours[at], 1);
+    Box& box = result[at];
+    box.add(point);
+    box.add(detail::scaled(ends, 0.5));
+    box.add(detail::sum(detail::scaled(ends, edge.end), sides, 2 * edge.side));
+    if (quads) box.add(face_points[at]);
+    if (n < 2) continue;
+    const VertexMask mask = S::smooth_vertex(n);
+    box.add(detail::sum(detail::sum(detail::scaled(point, mask.vertex), neighbours[at], n * mask.edge), sides,
+                        quads ? n * mask.face : 0));
+  }
+  return result;
+}
+
+}  // namespace shaolin

@@ -1,0 +1,91 @@
+#pragma once
+/// Four doubles that go through one instruction sequence together: two SSE2 registers, which every x86-64 has, or a
+/// loop.
+#include <array>
+#include <cstddef>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace shaolin {
+
+#ifdef __SSE2__
+
+class Four {
+ public:
+  explicit Four(double all) : low_(_mm_set1_pd(all)), high_(low_) {}
+  explicit Four(const double* from) : low_(_mm_loadu_pd(from)), high_(_mm_loadu_pd(from + 2)) {}
+  void store(double* to) const {
+    _mm_storeu_pd(to, low_);
+    _mm_storeu_pd(to + 2, high_);
+  }
+
+  friend Four operator+(Four a, Four b) { return {_mm_add_pd(a.low_, b.low_), _mm_add_pd(a.high_, b.high_)}; }
+  friend Four operator-(Four a, Four b) { return {_mm_sub_pd(a.low_, b.low_), _mm_sub_pd(a.high_, b.high_)}; }
+  friend Four operator*(Four a, Four b) { return {_mm_mul_pd(a.low_, b.low_), _mm_mul_pd(a.high_, b.high_)}; }
+  friend Four abs(Four a) {
+    const __m128d sign = _mm_set1_pd(-0.0);
+    return {_mm_andnot_pd(sign, a.low_), _mm_andnot_pd(sign, a.high_)};
+  }
+  /// a > b ? a : b, hence b where either is undefined (so does the instruction).
+  friend Four larger(Four a, Four b) { return {_mm_max_pd(a.low_, b.low_), _mm_max_pd(a.high_, b.high_)}; }
+  /// a < b ? a : b, hence b where either is undefined.
+  friend Four smaller(Four a, Four b) { return {_mm_min_pd(a.low_, b.low_), _mm_min_pd(a.high_, b.high_)}; }
+  /// Bit i is set where a <= b in place i.
+  friend int at_most(Four a, Four b) {
+    return _mm_movemask_pd(_mm_cmple_pd(a.low_, b.low_)) | _mm_movemask_pd(_mm_cmple_pd(a.high_, b.high_)) << 2;
+  }
+
+ private:
+  Four(__m128d low, __m128d high) : low_(low), high_(high) {}
+  __m128d low_, high_;
+};
+
+#else
+
+class Four {
+ public:
+  explicit Four(double all) { value_.fill(all); }
+  explicit Four(const double* from) : value_{from[0], from[1], from[2], from[3]} {}
+  void store(double* to) const {
+    for (std::size_t i = 0; i < 4; ++i) to[i] = value_[i];
+  }
+
+  friend Four operator+(Four a, Four b) {
+    return each(a, b, [](double x, double y) { return x + y; });
+  }
+  friend Four operator-(Four a, Four b) {
+    return each(a, b, [](double x, double y) { return x - y; });
+  }
+  friend Four operator*(Four a, Four b) {
+    return each(a, b, [](double x, double y) { return x * y; });
+  }
+  friend Four abs(Four a) {
+    return each(a, a, [](double x, double) { return x < 0 ? -x : x; });
+  }
+  friend Four larger(Four a, Four b) {
+    return each(a, b, [](double x, double y) { return x > y ? x : y; });
+  }
+  friend Four smaller(Four a, Four b) {
+    return each(a, b, [](double x, double y) { return x < y ? x : y; });
+  }
+  friend int at_most(Four a, Four b) {
+    int bits = 0;
+    for (std::size_t i = 0; i < 4; ++i) bits |= (a.value_[i] <= b.value_[i]) << i;
+    return bits;
+  }
+
+ private:
+  template <class Operation>
+  static Four each(const Four& a, const Four& b, Operation operation) {
+    Four result(0.0);
+    for (std::size_t i = 0; i < 4; ++i) result.value_[i] = operation(a.value_[i], b.value_[i]);
+    return result;
+  }
+  std::array<double, 4> value_;
+};
+
+#endif
+
+}  // namespace shaolin

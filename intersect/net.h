@@ -1,0 +1,64 @@
+#pragma once
+/// The control points of a regular patch, coordinate by coordinate, for vector instructions.
+#include <algorithm>
+#include <array>
+
+#include "../schemes/limit_sample.h"
+#include "four.h"
+
+namespace shaolin {
+
+/// Sixteen places a coordinate: the points of a Bezier patch, the last one repeated where it has fewer, so that bounds
+/// are those of the points.
+struct Net {
+  std::array<double, 16> x, y, z;
+
+  Net() = default;
+  template <class Bezier>
+  explicit Net(const Bezier& patch) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      const Vec3& p = patch.b[i < patch.b.size() ? i : patch.b.size() - 1];
+      x[i] = p.x();
+      y[i] = p.y();
+      z[i] = p.z();
+    }
+  }
+
+  template <class Bezier>
+  Bezier bezier() const {
+    Bezier patch;
+    for (std::size_t i = 0; i < patch.b.size(); ++i) patch.b[i] = Vec3(x[i], y[i], z[i]);
+    return patch;
+  }
+};
+
+/// The least and the largest of sixteen values.
+struct Range {
+  double low, high;
+
+  explicit Range(const std::array<double, 16>& v) {
+    const Four a(&v[0]), b(&v[4]), c(&v[8]), d(&v[12]);
+    std::array<double, 4> lows, highs;
+    smaller(smaller(a, b), smaller(c, d)).store(lows.data());
+    larger(larger(a, b), larger(c, d)).store(highs.data());
+    low = std::min(std::min(lows[0], lows[1]), std::min(lows[2], lows[3]));
+    high = std::max(std::max(highs[0], highs[1]), std::max(highs[2], highs[3]));
+  }
+};
+
+/// The sum of products of sixteen values and weights.
+inline double dot(const std::array<double, 16>& v, const std::array<double, 16>& w) {
+  const Four sum = (Four(&v[0]) * Four(&w[0]) + Four(&v[4]) * Four(&w[4])) +
+                   (Four(&v[8]) * Four(&w[8]) + Four(&v[12]) * Four(&w[12]));
+  std::array<double, 4> part;
+  sum.store(part.data());
+  return (part[0] + part[1]) + (part[2] + part[3]);
+}
+
+/// a v + b w, place by place.
+inline void combine(double a, const std::array<double, 16>& v, double b, const std::array<double, 16>& w,
+                    std::array<double, 16>& out) {
+  for (std::size_t i = 0; i < 16; i += 4) (Four(a) * Four(&v[i]) + Four(b) * Four(&w[i])).store(&out[i]);
+}
+
+}  // namespace shaolin

@@ -1,0 +1,87 @@
+#include "tools/cli/validate.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "intersect/scene.h"
+#include "schemes/limit_surface.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/render_stats.h"
+#include "tools/cli/threads.h"
+#include "tools/cli/validate_report.h"
+
+namespace shaolin {
+namespace {
+
+/// So many evaluations for the dense check's grids at most, but at least 8 steps a side: about 10 s.
+constexpr double most_grid_points = 1.5e6;
+constexpr int least_level = 3, most_level = 6;
+
+int dense_level_for(const Oracle& oracle) {
+  double pieces = 0;
+  for (int face = 0; face < oracle.face_count(); ++face) pieces += oracle.has_limit(face) ? oracle.sub_count(face) : 0;
+  int level = most_level;
+  while (level > least_level && pieces * (1 << level) * (1 << level) > most_grid_points) --level;
+  return level;
+}
+
+Validation check_model(const ValidateOptions& options) {
+  Stopwatch stopwatch;
+  Model model = load_model(options.model);
+  const Oracle oracle(model.mesh, model.scheme);
+  Validation result{.model = options.model.file.string(), .scheme = model.scheme, .seed = options.seed};
+  const Scene scene = build_scene(std::move(model));
+  result.diagonal = oracle.diagonal();
+
+  const auto parameters = sample_parameters(oracle, options.evaluations, options.seed);
+  result.evaluations = check_evaluations(Evaluator::of(scene.surface()), oracle, parameters);
+  if (options.rays > 0) {
+    result.dense_level = dense_level_for(oracle);
+    const DenseCheck dense(oracle, result.dense_level);
+    const Box box = scene.bounds();
+    const auto rays = sample_rays(oracle, box.lower, box.upper, options.rays, options.seed);
+    result.rays = check_rays(Intersector::of(scene), oracle, dense, rays);
+  }
+  result.seconds = stopwatch.lap();
+  return result;
+}
+
+}  // namespace
+
+int validate(const ValidateOptions& options) {
+  // First, so that a report that cannot be written costs no minutes.
+  std::optional<OutputFile> report;
+  if (!options.report.empty()) report.emplace(options.report);
+  Validation result;
+  run_with_threads(options.threads, [&] { result = check_model(options); });
+  print_validation(result);
+  if (report) {
+    write_validation(report->path(), result);
+    report->commit();
+  }
+  return result.passed() ? exit_done : exit_check_failed;
+}
+
+void add_validate(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<ValidateOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "validate", "Hold evaluations and rays against OpenSubdiv's surface; exits with 1 on any disagreement");
+  add_model_options(*sub, options->model);
+  sub->add_option("--rays", options->rays,
+                  "Rays in thirds: from a camera, incoherent, grazing; a tenth of that in addition is aimed exactly at "
+                  "edges and vertices of patches")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}))
+      ->capture_default_str();
+  sub->add_option("--evaluations", options->evaluations,
+                  "Evaluations; a quarter of them crowds towards corners of patches, down to 1e-8")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}))
+      ->capture_default_str();
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
+  sub->add_option("--report", options->report, "JSON file for all figures and every disagreement")->type_name("FILE");
+  add_threads_option(*sub, options->threads);
+  sub->callback([options, &command] { command = [options] { return validate(*options); }; });
+}
+
+}  // namespace shaolin

@@ -1,0 +1,41 @@
+#pragma once
+/// What `shaolin validate` found, for people and for programs.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "tools/validate/check_evaluations.h"
+#include "tools/validate/check_rays.h"
+
+namespace shaolin {
+
+struct Validation {
+  std::string model, scheme;
+  std::uint64_t seed = 1;
+  double diagonal = 0;  ///< of the control mesh's bounding box
+  int dense_level = 0;  ///< the dense check's grid has 2^level steps a side
+  double seconds = 0;
+  EvaluationReport evaluations{};
+  RayReport rays{};
+
+  bool passed() const { return evaluations.passed() && rays.passed(); }
+};
+
+/// The table, the first disagreements in full, the verdict: to stdout.
+void print_validation(const Validation& validation);
+
+/// Writes a JSON object:
+///
+///     model, scheme, seed, diagonal, dense_level, seconds, passed
+///     evaluations    { count, faces, faces_without_limit, passed, position, normal, undetermined_normal, derivative }:
+///                    the last four are { count, median, p99, max, worst: { face, sub, u, v } }
+///     rays           { camera, incoherent, grazing, aimed, all }: every field of RayFigures
+///     bars           the figures that these are held to
+///     disagreements  a list of { what, error, allowed, at or ray, replay, detail }: `replay` is a row for
+///                    `shaolin eval` or `shaolin query`
+///
+/// What is not finite is written as the text "infinite". Throws std::runtime_error if the file cannot be written.
+void write_validation(const std::filesystem::path& file, const Validation& validation);
+
+}  // namespace shaolin
