@@ -2,6 +2,7 @@
 /// Axis-aligned boxes and the slab test.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -101,8 +102,8 @@ class BoxOrder {
   void sort(int met, const Four& entry) {
     std::array<double, 4> value;
     entry.store(value.data());
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (!(met >> i & 1)) continue;
+    for (auto rest = static_cast<unsigned>(met); rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rest));
       auto at = static_cast<std::size_t>(count_++);
       for (; at > 0 && distance_[at - 1] > value[i]; --at) {
         distance_[at] = distance_[at - 1];

@@ -148,20 +148,13 @@ auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, doub
     -> Verdict {
   const double slack = error_ * flattening.norm() * 1.5;
   Parameter at = D::centre();
-  double best_residual = std::numeric_limits<double>::infinity();
   constexpr int most_steps = 12;
   for (int step = 0; step < most_steps; ++step) {
     ++counters_.newton_steps;
     const typename Bezier::Weights weights = Bezier::weights(at);
     const Eigen::Vector2d f(dot(cell.x, weights.value), dot(cell.y, weights.value));
-    const double residual = f.cwiseAbs().maxCoeff();
-    if (residual <= error_) {
-      // Close enough to count; the step after this one wins the last digits, if there are any left.
-      if (residual >= best_residual) return Verdict::found;
-      best_residual = residual;
-      hit = {at, dot(cell.z, weights.value)};
-    } else {
-      if (best_residual <= error_) return Verdict::found;
+    const bool on_ray = f.cwiseAbs().maxCoeff() <= error_;
+    if (!on_ray) {
       const Eigen::Vector2d g = flattening * f;
       const Parameter image = at - g;
       const double reach = contraction * g.norm() / (1 - contraction) + slack;
@@ -170,10 +163,17 @@ auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, doub
     Matrix jacobian;
     jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
     const Parameter next = D::nearest(at - jacobian.inverse() * f);
+    if (on_ray) {
+      // The step from here wins the last digits; it is so short that the distance follows it to first order.
+      const Eigen::Vector2d last = next.allFinite() ? Eigen::Vector2d(next - at) : Eigen::Vector2d::Zero();
+      hit = {at + last,
+             dot(cell.z, weights.value) + dot(cell.z, weights.du) * last.x() + dot(cell.z, weights.dv) * last.y()};
+      return Verdict::found;
+    }
     if (next == at || !next.allFinite()) break;
     at = next;
   }
-  return best_residual <= error_ ? Verdict::found : Verdict::unknown;
+  return Verdict::unknown;
 }
 
 template <class Bezier>

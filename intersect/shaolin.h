@@ -165,7 +165,9 @@ auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) 
       ray, [&] { return far; },
       [&](int primitive, double) {
         for (const auto& start : start_patches(primitive).patches) {
-          if (BoxOrder(start->box, ray, far).count() == 0) continue;
+          // The tree's own box pays where it saves a finish, or where it stands among the many of an n-gon.
+          const bool ask_box = start->root.is_leaf() || start->sub > 0;
+          if (ask_box && BoxOrder(start->box, ray, far).count() == 0) continue;
           Search search{ray, RayFrame(ray, start->normal), far, counters};
           descend<query>(start->root, search);
           if (!search.found.node) continue;
