@@ -27,8 +27,10 @@ struct PatchHit {
 template <class Bezier>
 class ExactFinish {
  public:
-  ExactFinish(double error, double near, double far, RayCounters& counters)
-      : error_(error), near_(near), counters_(counters) {
+  /// `far_is_hit` says that `far` is the distance of a hit found elsewhere; a hit here must then be nearer by more than
+  /// the error to count. (Where a surface runs along a ray there is otherwise no end of equally near ones.)
+  ExactFinish(double error, double near, double far, bool far_is_hit, RayCounters& counters)
+      : error_(error), near_(near), has_hit_(far_is_hit), counters_(counters) {
     best_.distance = far;
   }
 
@@ -55,12 +57,17 @@ class ExactFinish {
 
   void visit(const Net& cell, const Parameter& origin, double scale, int depth);
   void split(const Net& cell, const Parameter& origin, double scale, int depth);
+  bool is_no_nearer(const Net& cell, const Matrix& jacobian) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit);
   void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
 
+  /// The distance past which nothing is of interest.
+  double horizon() const { return best_.distance + (has_hit_ ? -error_ : error_); }
+
   double error_;
   double near_;
+  bool has_hit_;  ///< best_.distance is that of a hit
   RayCounters& counters_;
   PatchHit best_;
   bool found_ = false;
@@ -70,9 +77,9 @@ class ExactFinish {
 template <class Bezier>
 void ExactFinish<Bezier>::accept(const Parameter& at, double distance, const Parameter& origin, double scale) {
   // A hit counts as within the interval if rounding alone could have moved it out.
-  if (distance < near_ - error_ || distance > best_.distance + (found_ ? 0 : error_)) return;
+  if (distance < near_ - error_ || distance > horizon()) return;
   best_ = {origin + scale * at, distance};
-  found_ = true;
+  found_ = has_hit_ = true;
 }
 
 template <class Bezier>
@@ -84,10 +91,12 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
   const Range y(cell.y);
   if (y.low > error_ || y.high < -error_) return;
   const Range z(cell.z);
-  if (z.high < near_ - error_ || z.low > best_.distance + error_) return;
+  if (z.high < near_ - error_ || z.low > horizon()) return;
 
+  // A cell that touches the ray's band of error and reaches no farther than twice its width is a point, too: splitting
+  // it would only trace the band's edge.
   const bool is_point = depth >= deepest || (cells_ > patience && depth >= deepest_out_of_patience) ||
-                        std::max({x.high, -x.low, y.high, -y.low}) <= error_;
+                        std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
   if (is_point) {
     const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
     accept(D::centre(), std::max(distance, near_), origin, scale);
@@ -96,6 +105,7 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
 
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
+  if (has_hit_ && cells_ > 4 && is_no_nearer(cell, jacobian)) return;
   const double determinant = jacobian.determinant();
   if (std::abs(determinant) <= 1e-12 * jacobian.col(0).norm() * jacobian.col(1).norm())
     return split(cell, origin, scale, depth);
@@ -120,6 +130,25 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
     if (verdict != Verdict::unknown) return;
   }
   split(cell, origin, scale, depth);
+}
+
+/// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty.
+///
+/// On the ray, z is z - a x - b y for any a and b, give or take (|a| + |b|) error. Here a and b take the mean slope of
+/// z away, as far as x and y can: a patch collapsed to a curve meets the ray in one point over and over, at one
+/// distance that the z of its cells do not show; and along a grazing ray, distances are uncertain by as much as a and b
+/// are large.
+template <class Bezier>
+bool ExactFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) const {
+  const Eigen::Vector2d slope(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
+  Matrix normal_equations = jacobian * jacobian.transpose();
+  normal_equations.diagonal().array() += 1e-12 * normal_equations.trace();
+  const Eigen::Vector2d ab = normal_equations.inverse() * (jacobian * slope);
+  if (!ab.allFinite()) return false;
+  std::array<double, 16> plane, rest;
+  combine(ab.x(), cell.x, ab.y(), cell.y, plane);
+  combine(1, cell.z, -1, plane, rest);
+  return Range(rest).low > best_.distance - error_ * (1 + ab.cwiseAbs().sum());
 }
 
 /// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared

@@ -53,7 +53,7 @@ class PatchNode {
   /// True for a regular patch flat enough for the finish to take on: its derivatives stay within a quarter of the mean
   /// ones, so that seen from most directions the projection to the ray's frame is one to one. (A smaller share makes
   /// more and flatter patches, a larger one leaves more splitting to each ray.) A degenerate patch never gets there;
-  /// beyond eight splits of a polynomial the finish splits on its own.
+  /// beyond five splits of a polynomial the finish splits on its own.
   bool is_leaf() const { return leaf_; }
 
   /// True for an irregular patch so far down that it may lie within rounding of a ray.
@@ -70,7 +70,7 @@ class PatchNode {
   }
 
  private:
-  static constexpr int deepest_polynomial_split = 8;
+  static constexpr int deepest_polynomial_split = 5;
   /// No patch halves faster than its edges do, so none shrinks to 2^-52 of its face in fewer levels.
   static constexpr int tiny_level = 24;
 

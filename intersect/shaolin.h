@@ -227,7 +227,7 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
     const double error = search.frame.error(node.box());
     if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;
     // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
-    if (!node.is_regular() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= error)
+    if (!node.is_regular() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error)
       return finish_irregular(node, hull, search);
     children = &node.children(totals_);
   }
@@ -243,7 +243,8 @@ template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
   Net projected;
   search.frame.project(node.regular(), projected);
-  Finish<Regular> solver(search.frame.error(node.box()), search.ray.near, search.far, search.counters);
+  const bool far_is_hit = search.far < search.ray.far;
+  Finish<Regular> solver(search.frame.error(node.box()), search.ray.near, search.far, far_is_hit, search.counters);
   if (!solver.solve(projected)) return;
   search.found.node = &node;
   search.found.hit = solver.hit();
@@ -256,7 +257,7 @@ void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Box& hull, Sea
   const double error = search.frame.error(node.box());
   if (hull.upper.z() < search.ray.near - error) return;
   const double distance = std::max(hull.centre().z(), search.ray.near);
-  if (distance > search.far) return;
+  if (distance > search.far - (search.far < search.ray.far ? error : 0)) return;
   search.found.node = &node;
   search.found.hit = {Domain<S::face_kind>::centre(), distance};
   search.far = distance;

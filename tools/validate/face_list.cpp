@@ -101,33 +101,38 @@ FaceList face_list(const ControlMesh& mesh) {
 }
 
 /// Around each corner the copies follow one another; only the face itself and the faces across its own edges are in
-/// the sequences of two corners.
+/// the sequences of two corners. Around a corner of valence 2 one face lies across both edges.
 FaceList unfolded_ring(const TaggedMesh& mesh, int face) {
   Unfolding unfolding(mesh);
   const int n = mesh.face_vertices.count(face), centre = unfolding.add_copy(face);
-  std::vector<int> across(static_cast<std::size_t>(n), -1);  // per edge: the copy beyond it
+  std::vector<Sector> fans;
+  std::vector<int> side(static_cast<std::size_t>(n)), across(static_cast<std::size_t>(n), -1);
+  std::iota(side.begin(), side.end(), 0);
+  for (int i = 0; i < n; ++i) {
+    fans.push_back(sector_around(mesh, face, i, true));
+    if (fans[i].closed && fans[i].size() == 2) std::replace(side.begin(), side.end(), side[i], side[(i + n - 1) % n]);
+  }
   const auto copy_across = [&](int edge, int f) {
-    if (across[edge] < 0) across[edge] = unfolding.add_copy(f);
-    return across[edge];
+    int& copy = across[side[edge]];
+    if (copy < 0) copy = unfolding.add_copy(f);
+    return copy;
   };
   for (int i = 0; i < n; ++i) {
-    const Sector fan = sector_around(mesh, face, i, true);
+    const Sector& fan = fans[i];
     const int count = fan.size();
-    const int start = static_cast<int>(std::find_if(fan.faces.begin(), fan.faces.end(), [&](const int& f) {
-                        return f == face && fan.corners[&f - fan.faces.data()] == i;
-                      }) - fan.faces.begin());
+    int start = 0;
+    while (fan.faces[start] != face || fan.corners[start] != i) ++start;
+    const auto place = [&](int k) { return fan.closed ? (k + count) % count : k; };
     std::vector<int> copies(static_cast<std::size_t>(count), -1);
     copies[start] = centre;
-    const auto place = [&](int k) { return fan.closed ? (k + count) % count : k; };
-    const int before = place(start - 1), after = place(start + 1);
-    if (after < count && after != start) copies[after] = copy_across((i + n - 1) % n, fan.faces[after]);
-    if (before >= 0 && before != start && copies[before] < 0) copies[before] = copy_across(i, fan.faces[before]);
+    const int after = place(start + 1), before = place(start - 1);
+    if (after < count && copies[after] < 0) copies[after] = copy_across((i + n - 1) % n, fan.faces[after]);
+    if (before >= 0 && copies[before] < 0) copies[before] = copy_across(i, fan.faces[before]);
     for (int k = 0; k < count; ++k) {
       if (copies[k] < 0) copies[k] = unfolding.add_copy(fan.faces[k]);
     }
     for (int k = 0; k + 1 < count + fan.closed; ++k) {
-      const int next = place(k + 1);
-      unfolding.glue(copies[k], fan.corners[k], copies[next], fan.corners[next]);
+      unfolding.glue(copies[k], fan.corners[k], copies[place(k + 1)], fan.corners[place(k + 1)]);
     }
   }
   return unfolding.result();

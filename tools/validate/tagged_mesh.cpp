@@ -25,10 +25,9 @@ bool TaggedFactory::resizeComponentTopology(TopologyRefiner& refiner, const shao
   setNumBaseEdges(refiner, mesh.edge_count());
   for (int f = 0; f < mesh.face_count(); ++f) setNumBaseFaceVertices(refiner, f, mesh.face_vertices.count(f));
   for (int e = 0; e < mesh.edge_count(); ++e) setNumBaseEdgeFaces(refiner, e, mesh.edge_faces.count(e));
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    setNumBaseVertexFaces(refiner, v, mesh.vertex_faces.count(v));
-    setNumBaseVertexEdges(refiner, v, mesh.vertex_edges.count(v));
-  }
+  // Two loops: GCC 12 at -O3 miscompiles OpenSubdiv's inline offset sums in one (all vertices' edges then start at 0).
+  for (int v = 0; v < mesh.vertex_count(); ++v) setNumBaseVertexFaces(refiner, v, mesh.vertex_faces.count(v));
+  for (int v = 0; v < mesh.vertex_count(); ++v) setNumBaseVertexEdges(refiner, v, mesh.vertex_edges.count(v));
   return true;
 }
 
@@ -247,11 +246,23 @@ CutOut cut_neighbourhood(const TaggedMesh& mesh, int face, int rings) {
   return cut_faces(mesh, grow(mesh, {face}, rings));
 }
 
+namespace {
+
+/// Guards against wrong offsets in OpenSubdiv's tables, see resizeComponentTopology(): the first lists would be overwritten.
+bool holds_first_lists(const Far::TopologyLevel& level, const TaggedMesh& mesh) {
+  const auto same = [](const auto& a, const auto& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); };
+  return same(level.GetVertexEdges(0), mesh.vertex_edges[0]) && same(level.GetVertexFaces(0), mesh.vertex_faces[0]) &&
+         same(level.GetEdgeFaces(0), mesh.edge_faces[0]) && same(level.GetFaceVertices(0), mesh.face_vertices[0]);
+}
+
+}  // namespace
+
 std::unique_ptr<Far::TopologyRefiner> make_refiner(const TaggedMesh& mesh, const SubdivisionRules& rules) {
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Far::TaggedFactory::Create(mesh, Far::TaggedFactory::Options(rules.scheme, rules.options)));
   if (!refiner) throw std::runtime_error("OpenSubdiv cannot build the topology of a mesh of " +
                                          std::to_string(mesh.face_count()) + " faces");
+  if (!holds_first_lists(refiner->GetLevel(0), mesh)) throw std::logic_error("OpenSubdiv holds another mesh than given");
   return refiner;
 }
 

@@ -1,0 +1,142 @@
+// Patches and the mesh hierarchy: two ways to the same points.
+#include "schemes/patch.h"
+
+#include <set>
+
+#include "schemes/catmull_clark.h"
+#include "schemes/errors.h"
+#include "schemes/loop.h"
+#include "schemes/scheme_surface.h"
+#include "tests/catch.h"
+#include "tests/models.h"
+
+namespace shaolin {
+
+namespace {
+
+/// Both patches have the same configuration and the same points to the last bit.
+template <Scheme S>
+bool is_same(const Patch<S>& a, const Patch<S>& b) {
+  return a.configuration == b.configuration && a.points == b.points;
+}
+
+/// Compares the patches of all faces below `face` with those of the refined meshes. True if all agree.
+template <Scheme S>
+bool agrees(const SubdivisionMesh<S>& mesh, int face, const Patch<S>& patch, ConfigurationTable<S>& table,
+            const std::vector<const SubdivisionMesh<S>*>& finer, std::size_t level) {
+  if (!is_same(mesh.patch(face, table), patch)) return false;
+  if (level == finer.size()) return true;
+  for (int k = 0; k < mesh.child_count(face); ++k)
+    if (!agrees(*finer[level], mesh.child_face(face, k), patch.child(k), table, finer, level + 1)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("Hierarchy and patch give the same points, bit for bit", "[schemes][patch]", Loop, CatmullClark) {
+  using S = TestType;
+  for (const Model& model : all_models()) {
+    if (model.scheme != S::name) continue;
+    CAPTURE(model.name);
+    const SubdivisionMesh<S> mesh(model.mesh);
+    std::unique_ptr<SubdivisionMesh<S>> first, second;
+    std::vector<const SubdivisionMesh<S>*> finer;
+    try {
+      first = mesh.refine();
+      finer.push_back(first.get());
+      second = first->refine();
+      finer.push_back(second.get());
+    } catch (const InputError&) {
+      // Beside interior vertices of valence 2 a split triangle mesh is none that half-edges can hold.
+      CHECK(model.name.find("val2") != std::string::npos);
+    }
+    ConfigurationTable<S> table;
+    int differing = 0, first_differing = -1;
+    const int stride = 1 + mesh.face_count() / 400;
+    for (int face = 0; face < mesh.face_count(); face += stride) {
+      if (!mesh.is_held(face)) continue;
+      if (agrees(mesh, face, mesh.patch(face, table), table, finer, 0)) continue;
+      if (differing++ == 0) first_differing = face;
+    }
+    CAPTURE(first_differing);
+    CHECK(differing == 0);
+  }
+}
+
+TEMPLATE_TEST_CASE("A refined mesh knows its parents and children", "[schemes][mesh]", Loop, CatmullClark) {
+  using S = TestType;
+  const SubdivisionMesh<S> mesh(poles(S::name, 5));
+  const auto next = mesh.refine();
+  CHECK(mesh.level() == 0);
+  CHECK(next->level() == 1);
+  CHECK(next->parent() == &mesh);
+  const bool quads = S::face_kind == FaceKind::quad;
+  CHECK(next->face_count() == 4 * mesh.face_count());
+  CHECK(next->vertex_count() >= mesh.vertex_count() + mesh.edge_count() + (quads ? mesh.face_count() : 0));
+  CHECK(next->edge_count() == 2 * mesh.edge_count() + (quads ? 4 : 3) * mesh.face_count());
+  for (const int face : mesh.faces())
+    for (int k = 0; k < mesh.child_count(face); ++k) CHECK(next->parent_face(mesh.child_face(face, k)) == face);
+  for (const int e : mesh.edges()) {
+    const auto [a, b, sharpness] = mesh.edge(e);
+    const Ring ring = next->ring(next->corner_at(mesh.child_of_edge(e)));
+    std::set<int> ends;
+    for (const Ring::Spoke& spoke : ring.spokes) ends.insert(spoke.end);
+    CHECK((ends.count(mesh.child_of_vertex(a)) == 1 && ends.count(mesh.child_of_vertex(b)) == 1));
+  }
+}
+
+TEMPLATE_TEST_CASE("A torus is regular everywhere, a pole's faces are not", "[schemes][configuration]", Loop,
+                   CatmullClark) {
+  using S = TestType;
+  const SchemeSurface<S> regular(torus(S::name, 5, 7));
+  for (int face = 0; face < regular.face_count(); ++face) CHECK(regular.patch(face, 0).is_regular());
+  CHECK(regular.table().size() == 1);
+  const SchemeSurface<S> irregular(poles(S::name, 7));
+  for (int face = 0; face < irregular.face_count(); ++face) CHECK_FALSE(irregular.patch(face, 0).is_regular());
+}
+
+TEMPLATE_TEST_CASE("Boundaries and infinitely sharp creases are regular", "[schemes][configuration]", Loop,
+                   CatmullClark) {
+  using S = TestType;
+  ControlMesh mesh = sheet(S::name, 6, 6);
+  for (int i = 0; i < 6; ++i) mesh.sharp_edges.push_back({3 * 7 + i, 3 * 7 + i + 1, 10});
+  const SchemeSurface<S> surface(mesh);
+  int regular = 0;
+  for (int face = 0; face < surface.face_count(); ++face) regular += surface.patch(face, 0).is_regular();
+  // Quads: all but those at the two ends of the crease, where it meets the boundary. Triangles: a corner of the sheet
+  // is never regular (valence 2 or 3 of its own), nor are the crease's ends.
+  if (S::face_kind == FaceKind::quad) {
+    CHECK(regular >= 32);
+  } else {
+    CHECK(regular >= 60);
+  }
+  CHECK(surface.patch(surface.face_count() / 2, 0).is_regular());
+}
+
+TEMPLATE_TEST_CASE("The configurations around an irregular corner close", "[schemes][configuration]", Loop,
+                   CatmullClark) {
+  using S = TestType;
+  for (const Model& model : all_models()) {
+    if (model.scheme != S::name) continue;
+    CAPTURE(model.name);
+    const SchemeSurface<S> surface(model.mesh);
+    const int stride = 1 + surface.face_count() / 50;
+    const auto descend = [&](int levels) {
+      for (int face = 0; face < surface.face_count(); face += stride) {
+        if (!surface.has_limit(face)) continue;
+        for (int sub = 0; sub < surface.sub_count(face); ++sub)
+          for (int k = 0; k < Domain<S::face_kind>::corner_count; ++k) {
+            const Configuration<S>* at = surface.patch(face, sub).configuration;
+            for (int level = 0; level < levels; ++level) at = at->child(k).configuration;
+          }
+      }
+    };
+    // Sharpness below 10 is gone after ten levels, rings repeat after a few more.
+    descend(14);
+    const std::size_t size = surface.table().size();
+    descend(40);
+    CHECK(surface.table().size() == size);
+  }
+}
+
+}  // namespace shaolin
