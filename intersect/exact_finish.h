@@ -48,10 +48,9 @@ class ExactFinish {
   /// Cells this small are points: halving further changes no double in [1/2, 1].
   static constexpr int deepest = 52;
   /// A ray that runs within a surface, or along a fold, meets it in a curve; the cells around a curve are without
-  /// number. Past this many, cells count as points once they are this deep: 2^-26 of the patch, where a fold is flat to
-  /// 2^-52.
+  /// number. Past this many, cells count as points once they are this deep: below 1e-12 of the patch.
   static constexpr int patience = 4096;
-  static constexpr int deepest_out_of_patience = 26;
+  static constexpr int deepest_out_of_patience = 42;
 
   enum class Verdict { none, found, unknown };
 
@@ -94,9 +93,9 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
   if (z.high < near_ - error_ || z.low > horizon()) return;
 
   // A cell that touches the ray's band of error and reaches no farther than twice its width is a point, too: splitting
-  // it would only trace the band's edge.
-  const bool is_point = depth >= deepest || (cells_ > patience && depth >= deepest_out_of_patience) ||
-                        std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
+  // it would only trace the band's edge. (Along the ray it must be short, or it is a curve that runs along the ray.)
+  const bool in_band = std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_ && z.high - z.low <= 16 * error_;
+  const bool is_point = in_band || depth >= deepest || (cells_ > patience && depth >= deepest_out_of_patience);
   if (is_point) {
     const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
     accept(D::centre(), std::max(distance, near_), origin, scale);
@@ -171,11 +170,13 @@ double ExactFinish<Bezier>::contraction(const std::array<double, 16>& x, const s
 
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
 /// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
-/// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at.
+/// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at. A point
+/// within the error of the ray is a zero of g moved by no more than |flattening| error, which widens both bounds by 1 /
+/// (1 - q) of that.
 template <class Bezier>
 auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit)
     -> Verdict {
-  const double slack = error_ * flattening.norm() * 1.5;
+  const double slack = error_ * flattening.norm() * 1.5 / (1 - contraction);
   Parameter at = D::centre();
   constexpr int most_steps = 12;
   for (int step = 0; step < most_steps; ++step) {
@@ -193,8 +194,10 @@ auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, doub
     jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
     const Parameter next = D::nearest(at - jacobian.inverse() * f);
     if (on_ray) {
-      // The step from here wins the last digits; it is so short that the distance follows it to first order.
-      const Eigen::Vector2d last = next.allFinite() ? Eigen::Vector2d(next - at) : Eigen::Vector2d::Zero();
+      // The step from here wins the last digits, unless it is long (a grazing ray): to first order the distance follows
+      // it, and 1e-8 squared is below rounding.
+      Eigen::Vector2d last = next - at;
+      if (!(last.norm() <= 1e-8)) last.setZero();
       hit = {at + last,
              dot(cell.z, weights.value) + dot(cell.z, weights.du) * last.x() + dot(cell.z, weights.dv) * last.y()};
       return Verdict::found;

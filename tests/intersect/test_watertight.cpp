@@ -46,8 +46,11 @@ struct Aim {
 
 /// Directions that go wrong first: along the axes, along the normal, within the tangent plane, then anywhere.
 std::vector<Vec3> directions_at(const LimitSample& sample, Random& random, int more) {
-  std::vector<Vec3> result{Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(), -sample.normal};
-  result.push_back(sample.normal.cross(random.direction()).normalized());
+  std::vector<Vec3> result{Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ()};
+  if (std::abs(sample.normal.norm() - 1) < 1e-9) {  // else the surface has no tangent plane there
+    result.push_back(-sample.normal);
+    result.push_back(sample.normal.cross(random.direction()).normalized());
+  }
   for (int i = 0; i < more; ++i) result.push_back(random.direction());
   return result;
 }

@@ -75,8 +75,9 @@ TEMPLATE_TEST_CASE("To refine and then evaluate is to evaluate", "[schemes][eval
       CHECK((fine.position - coarse.position).norm() < 1e-14 * diagonal);
       CHECK((fine.normal - coarse.normal).norm() < 1e-11);
       REQUIRE((fine.derivatives && coarse.derivatives));
-      CHECK((fine.derivatives->du - s * coarse.derivatives->du).norm() < 1e-12 * (diagonal + coarse.derivatives->du.norm()));
-      CHECK((fine.derivatives->dv - s * coarse.derivatives->dv).norm() < 1e-12 * (diagonal + coarse.derivatives->dv.norm()));
+      const Vec3 &du = coarse.derivatives->du, &dv = coarse.derivatives->dv;
+      CHECK((fine.derivatives->du - s * du).norm() < 1e-12 * (diagonal + du.norm()));
+      CHECK((fine.derivatives->dv - s * dv).norm() < 1e-12 * (diagonal + dv.norm()));
     }
   });
 }
@@ -139,7 +140,7 @@ TEMPLATE_TEST_CASE("Normals near a pole keep their digits at any distance", "[sc
   for (const int n : {3, 4, 5, 7, 9}) {
     const auto surface = make_limit_surface(shaken(poles(S::name, n), 0.1), S::name);
     const LimitSample corner = *surface->evaluate({0, 0, 0, 0});
-    CHECK_FALSE(corner.derivatives.has_value() == (n == S::regular_valence));
+    CHECK(corner.derivatives.has_value() == (n == S::regular_valence));
     // The normal tends to the corner's: what is left at one distance bounds it at every smaller one.
     double bound = 2;
     for (const double distance : {1e-4, 1e-8, 1e-12, 1e-15, 1e-20, 1e-40, 1e-100, 1e-300}) {

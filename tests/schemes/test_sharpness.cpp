@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tests/property.h"
+#include "tests/catch.h"
 #include "tests/random.h"
 
 namespace shaolin {

@@ -9,8 +9,8 @@ namespace shaolin {
 CornerChain::CornerChain(const TaggedMesh& mesh, const SubdivisionRules& rules, int vertex,
                          OpenSubdiv::Bfr::SurfaceFactoryCache& cache)
     : rules_(rules), cache_(cache), rings_(3) {
-  CutOut cut = cut_rings(mesh, vertex, 4);
-  if (may_need_children(cut.mesh, rules)) rings_ = 4;
+  if (may_need_children(cut_rings(mesh, vertex, 3).mesh, rules)) rings_ = 4;
+  CutOut cut = cut_rings(mesh, vertex, rings_ - 1);
   for (int i = 0; i < mesh.vertex_faces.count(vertex); ++i) {
     const int face = mesh.vertex_faces[vertex][i];
     corners_.emplace_back(face, mesh.vertex_face_slots[vertex][i]);
@@ -42,6 +42,7 @@ void CornerChain::grow() {
   next.mesh = std::move(cut.mesh);
   next.centre = cut.vertex_index.at(centre);
   next.origin = last.origin + next.mesh.recentre(next.centre);
+  size_ += static_cast<std::size_t>(next.mesh.face_count());
   levels_.push_back(std::move(next));
 }
 

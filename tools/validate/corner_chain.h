@@ -25,6 +25,9 @@ class CornerChain {
   /// per unit of the original face's u, v. The cost is that of the levels that are new, then of one small patch.
   SurfaceValues evaluate(int face, int corner, int level, double u, double v);
 
+  /// The number of faces held in all levels: what the chain costs in memory, about 250 bytes each.
+  std::size_t size() const { return size_; }
+
  private:
   /// A face at the vertex and which of its corners the vertex is.
   using Corner = std::pair<int, int>;
@@ -47,6 +50,7 @@ class CornerChain {
   std::vector<Corner> corners_;   // in the original mesh
   std::vector<int> base_faces_;   // the same faces in level 0's mesh
   std::vector<Level> levels_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace shaolin

@@ -123,7 +123,8 @@ class Oracle::Implementation {
   const std::array<CornerKind, 4>& kinds(int face);
   std::optional<int> corner_to_refine(const Place& at);
   LimitSample at_corner(int face, int corner);
-  SurfaceValues near_corner(const Place& at, int corner);
+  SurfaceValues near_corner(Place at, int corner);
+  SurfaceValues by_chain(bool finer, const Place& at, int corner);
 
   OracleOptions options_;
   TaggedMesh root_;                // the control mesh, or its first refinement if that has other faces than root's
@@ -131,7 +132,9 @@ class Oracle::Implementation {
   Bfr::SurfaceFactoryCache cache_;
   std::unordered_map<int, std::array<CornerKind, 4>> kinds_;
   std::unordered_map<int, std::unique_ptr<Piece>> pieces_;
-  std::unordered_map<int, std::unique_ptr<CornerChain>> chains_;
+  std::optional<Refined> finer_;   // root_ once more, if needed
+  std::map<std::pair<bool, int>, std::unique_ptr<CornerChain>> chains_;  // by finer or not, vertex
+  std::size_t chain_faces_ = 0;
   std::map<std::pair<int, int>, CornerLimit> limits_;
 };
 
@@ -203,15 +206,36 @@ LimitSample Oracle::Implementation::at_corner(int face, int corner) {
 }
 
 /// After `level` steps the distance d 2^level lies in (1/2, 1]: in the corner's child, but not in that one's own.
-SurfaceValues Oracle::Implementation::near_corner(const Place& at, int corner) {
+SurfaceValues Oracle::Implementation::by_chain(bool finer, const Place& at, int corner) {
   int exponent;
   const double mantissa = std::frexp(distance(at, corner), &exponent);
   const int level = -exponent + (mantissa == 0.5);
   const auto [cu, cv] = corner_position(corner);
   const double u = cu + std::ldexp(at.u - cu, level), v = cv + std::ldexp(at.v - cv, level);
-  std::unique_ptr<CornerChain>& chain = chains_[root_.face_vertices[at.face][corner]];
-  if (!chain) chain = std::make_unique<CornerChain>(root_, rules, root_.face_vertices[at.face][corner], cache_);
-  return chain->evaluate(at.face, corner, level, u, v);
+  // Chains are dropped all at once when they have grown large: they are quick to build again where they are needed.
+  constexpr std::size_t most_faces = 1'000'000;
+  if (chain_faces_ > most_faces) chains_.clear(), chain_faces_ = 0;
+  const TaggedMesh& mesh = finer ? finer_->mesh : root_;
+  const int vertex = mesh.face_vertices[at.face][corner];
+  std::unique_ptr<CornerChain>& chain = chains_[{finer, vertex}];
+  if (!chain) chain = std::make_unique<CornerChain>(mesh, rules, vertex, cache_);
+  const std::size_t before = chain->size();
+  SurfaceValues values = chain->evaluate(at.face, corner, level, u, v);
+  chain_faces_ += chain->size() - before;
+  values.rescale(at.scale);
+  return values;
+}
+
+/// A corner beside a heavy one starts from the mesh refined once more as a whole. There the heavy vertex is two rings
+/// away and its many faces stay out of the corner's chain; else each corner of a large n-gon would drag them along.
+SurfaceValues Oracle::Implementation::near_corner(Place at, int corner) {
+  const auto& kind = kinds(at.face);
+  const bool beside_heavy = std::any_of(kind.begin(), kind.begin() + face_corners(), [](auto k) { return k.heavy; });
+  if (kind[corner].heavy || !beside_heavy || distance(at, corner) > 0.5) return by_chain(false, at, corner);
+  if (!finer_) finer_ = refine(root_, rules);
+  const auto [cu, cv] = corner_position(corner);  // the corner's child has the same corner, at the same place
+  return by_chain(true, {finer_->face_children[at.face][corner], cu + 2 * (at.u - cu), cv + 2 * (at.v - cv), 2 * at.scale},
+                  corner);
 }
 
 std::optional<LimitSample> Oracle::Implementation::evaluate(const SurfaceParameter& parameter) {
@@ -222,14 +246,10 @@ std::optional<LimitSample> Oracle::Implementation::evaluate(const SurfaceParamet
   const Place at = place_of(parameter);
   const std::optional<int> corner = corner_to_refine(at);
   if (corner && distance(at, *corner) < std::ldexp(1, -CornerChain::max_level)) return at_corner(at.face, *corner);
-  SurfaceValues values;
-  if (corner) {
-    values = near_corner(at, *corner);
-  } else {
-    std::unique_ptr<Piece>& piece = pieces_[at.face];
-    if (!piece) piece = std::make_unique<Piece>(root_, at.face, rules, cache_);
-    values = piece->evaluate(at.u, at.v);
-  }
+  if (corner) return sample_of(near_corner(at, *corner));
+  std::unique_ptr<Piece>& piece = pieces_[at.face];
+  if (!piece) piece = std::make_unique<Piece>(root_, at.face, rules, cache_);
+  SurfaceValues values = piece->evaluate(at.u, at.v);
   values.rescale(at.scale);
   return sample_of(values);
 }
