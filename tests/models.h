@@ -75,15 +75,6 @@ inline ControlMesh shaken(ControlMesh mesh, double amount, std::uint64_t seed = 
   return mesh;
 }
 
-inline ControlMesh cube() {
-  return mesh_of({{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
-                 {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
-}
-
-inline ControlMesh tetrahedron() {
-  return mesh_of({{-1, -1, 1}, {1, -1, -1}, {1, 1, 1}, {-1, 1, -1}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}});
-}
-
 /// A closed mesh of the scheme's own faces with two poles, vertices 0 and 1, of valence n >= 3 (quads: a trapezohedron
 /// over a zigzag rim of 2 n vertices; triangles: a bipyramid over a rim of n).
 inline ControlMesh poles(const std::string& scheme, int n) {

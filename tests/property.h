@@ -29,9 +29,8 @@ inline rc::Gen<double> coordinate() {
 }
 
 inline rc::Gen<Vec3> any_point() {
-  return rc::gen::map(rc::gen::tuple(coordinate(), coordinate(), coordinate()), [](const auto& p) {
-    return Vec3(std::get<0>(p), std::get<1>(p), std::get<2>(p));
-  });
+  return rc::gen::map(rc::gen::tuple(coordinate(), coordinate(), coordinate()),
+                      [](const auto& p) { return Vec3(std::get<0>(p), std::get<1>(p), std::get<2>(p)); });
 }
 
 }  // namespace shaolin

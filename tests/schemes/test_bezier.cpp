@@ -113,8 +113,7 @@ TEMPLATE_TEST_CASE("Splitting agrees with evaluation", "[schemes][bezier]", Bezi
   }
 }
 
-TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier][domain]", BezierQuad,
-                   BezierTriangle) {
+TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier][domain]", BezierQuad, BezierTriangle) {
   using D = typename TestType::DomainType;
   Random random(3);
   for (int round = 0; round < 2000; ++round) {
@@ -153,8 +152,7 @@ TEMPLATE_TEST_CASE("Positions lie in the hull of the points, derivatives in that
   }
 }
 
-TEMPLATE_TEST_CASE("The weights give position and first derivatives", "[schemes][bezier]", BezierQuad,
-                   BezierTriangle) {
+TEMPLATE_TEST_CASE("The weights give position and first derivatives", "[schemes][bezier]", BezierQuad, BezierTriangle) {
   Random random(5);
   for (int round = 0; round < 100; ++round) {
     const TestType patch = random_patch<TestType>(random);
@@ -189,8 +187,8 @@ TEST_CASE("The quad patch is the bicubic B-spline", "[schemes][bezier]") {
 TEST_CASE("The triangle patch is the box spline that Loop's regular masks refine", "[schemes][bezier]") {
   // Points on the lattice a + b w around the triangle (0, 0), (1, 0), (0, 1); refined points stand at half steps.
   using Place = std::array<int, 2>;
-  constexpr std::array<Place, 12> places{{{0, 0}, {1, 0}, {0, 1}, {1, -1}, {1, 1}, {-1, 1}, {-1, 0}, {0, -1}, {2, -1},
-                                          {2, 0}, {0, 2}, {-1, 2}}};
+  constexpr std::array<Place, 12> places{
+      {{0, 0}, {1, 0}, {0, 1}, {1, -1}, {1, 1}, {-1, 1}, {-1, 0}, {0, -1}, {2, -1}, {2, 0}, {0, 2}, {-1, 2}}};
   // By definition of from_spline: p[3 + k] across edge k, then each corner's other two neighbours counter-clockwise.
   Random random(6);
   const auto find = [&](const Place& at) {
@@ -205,8 +203,9 @@ TEST_CASE("The triangle patch is the box spline that Loop's regular masks refine
       const bool odd_a = a & 1, odd_b = b & 1;
       const int x = (a - odd_a) / 2, y = (b - odd_b) / 2;
       if (!odd_a && !odd_b)
-        return 5.0 / 8 * at(x, y) + 1.0 / 16 * (at(x + 1, y) + at(x, y + 1) + at(x - 1, y + 1) + at(x - 1, y) +
-                                                at(x, y - 1) + at(x + 1, y - 1));
+        return 5.0 / 8 * at(x, y) +
+               1.0 / 16 *
+                   (at(x + 1, y) + at(x, y + 1) + at(x - 1, y + 1) + at(x - 1, y) + at(x, y - 1) + at(x + 1, y - 1));
       if (odd_a && !odd_b) return 3.0 / 8 * (at(x, y) + at(x + 1, y)) + 1.0 / 8 * (at(x, y + 1) + at(x + 1, y - 1));
       if (!odd_a) return 3.0 / 8 * (at(x, y) + at(x, y + 1)) + 1.0 / 8 * (at(x + 1, y) + at(x - 1, y + 1));
       return 3.0 / 8 * (at(x + 1, y) + at(x, y + 1)) + 1.0 / 8 * (at(x, y) + at(x + 1, y + 1));

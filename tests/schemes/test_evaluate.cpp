@@ -134,8 +134,7 @@ TEST_CASE("u follows a quad's outgoing edge, v the incoming one; subs begin at t
   }
 }
 
-TEMPLATE_TEST_CASE("Normals near a pole keep their digits at any distance", "[schemes][evaluate]", Loop,
-                   CatmullClark) {
+TEMPLATE_TEST_CASE("Normals near a pole keep their digits at any distance", "[schemes][evaluate]", Loop, CatmullClark) {
   using S = TestType;
   for (const int n : {3, 4, 5, 7, 9}) {
     const auto surface = make_limit_surface(shaken(poles(S::name, n), 0.1), S::name);

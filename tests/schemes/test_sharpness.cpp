@@ -142,8 +142,7 @@ TEST_CASE("Rules, decay and blend weights are OpenSubdiv's", "[schemes][sharpnes
       REQUIRE(t.parent_weight == 1);
       continue;
     }
-    const float weight =
-        osd.ComputeFractionalWeightAtVertex(vertex, child_vertex, n, edges.data(), child_edges.data());
+    const float weight = osd.ComputeFractionalWeightAtVertex(vertex, child_vertex, n, edges.data(), child_edges.data());
     REQUIRE(t.parent_weight == Approx(weight).epsilon(1e-6));
   }
 }

@@ -6,10 +6,9 @@
 
 namespace shaolin {
 
-CornerChain::CornerChain(const TaggedMesh& mesh, const SubdivisionRules& rules, int vertex,
+CornerChain::CornerChain(const TaggedMesh& mesh, const SubdivisionRules& rules, int vertex, bool wide,
                          OpenSubdiv::Bfr::SurfaceFactoryCache& cache)
-    : rules_(rules), cache_(cache), rings_(3) {
-  if (may_need_children(cut_rings(mesh, vertex, 3).mesh, rules)) rings_ = 4;
+    : rules_(rules), cache_(cache), rings_(wide ? 4 : 3) {
   CutOut cut = cut_rings(mesh, vertex, rings_ - 1);
   for (int i = 0; i < mesh.vertex_faces.count(vertex); ++i) {
     const int face = mesh.vertex_faces[vertex][i];

@@ -17,7 +17,8 @@ class CornerChain {
   /// The deepest refinement: parameters within 2^-max_level of the vertex count as the vertex itself.
   static constexpr int max_level = 120;
 
-  CornerChain(const TaggedMesh& mesh, const SubdivisionRules& rules, int vertex,
+  /// `wide` keeps the ring more; give may_need_children() of the mesh.
+  CornerChain(const TaggedMesh& mesh, const SubdivisionRules& rules, int vertex, bool wide,
               OpenSubdiv::Bfr::SurfaceFactoryCache& cache);
 
   /// The surface on the corner child of the given face after `level` steps, at (u, v) of that child in the face's own

@@ -109,8 +109,14 @@ class Oracle::Implementation {
     double u, v;
     double scale;
   };
+  /// Chains by vertex. They are dropped all at once when they hold more than so many faces: those that are needed are
+  /// quick to build again, but for the few of heavy vertices.
+  struct Chains {
+    std::size_t most_faces, faces = 0;
+    std::unordered_map<int, std::unique_ptr<CornerChain>> by_vertex{};
+  };
   struct CornerKind {
-    bool irregular, heavy;
+    bool irregular, heavy, beside_heavy;
   };
 
   Place place_of(const SurfaceParameter& at) const;
@@ -120,11 +126,13 @@ class Oracle::Implementation {
                               : quad_corners[static_cast<std::size_t>(corner)];
   }
   double distance(const Place& at, int corner) const;
+  bool is_heavy(int vertex) const { return root_.vertex_faces.count(vertex) > options_.heavy_valence; }
+  bool is_beside_heavy(int vertex) const;
   const std::array<CornerKind, 4>& kinds(int face);
   std::optional<int> corner_to_refine(const Place& at);
   LimitSample at_corner(int face, int corner);
-  SurfaceValues near_corner(Place at, int corner);
-  SurfaceValues by_chain(bool finer, const Place& at, int corner);
+  SurfaceValues near_corner(const Place& at, int corner);
+  SurfaceValues by_chain(Chains& chains, const TaggedMesh& mesh, const Place& at, int corner);
 
   OracleOptions options_;
   TaggedMesh root_;                // the control mesh, or its first refinement if that has other faces than root's
@@ -133,8 +141,8 @@ class Oracle::Implementation {
   std::unordered_map<int, std::array<CornerKind, 4>> kinds_;
   std::unordered_map<int, std::unique_ptr<Piece>> pieces_;
   std::optional<Refined> finer_;   // root_ once more, if needed
-  std::map<std::pair<bool, int>, std::unique_ptr<CornerChain>> chains_;  // by finer or not, vertex
-  std::size_t chain_faces_ = 0;
+  bool wide_chains_;
+  Chains light_{1'000'000}, heavy_{5'000'000}, finer_light_{1'000'000};
   std::map<std::pair<int, int>, CornerLimit> limits_;
 };
 
@@ -154,6 +162,7 @@ Oracle::Implementation::Implementation(const ControlMesh& mesh, const std::strin
     all_regular = all_regular && regular;
   }
   root_ = tagged_level(refiner->GetLevel(0), mesh.positions);
+  wide_chains_ = may_need_children(root_, rules);
   if (all_regular) return;
   Refined fine = refine(root_, rules);
   root_ = std::move(fine.mesh);
@@ -177,11 +186,20 @@ double Oracle::Implementation::distance(const Place& at, int corner) const {
   return corner == 0 ? du + dv : corner == 1 ? du : dv;
 }
 
+bool Oracle::Implementation::is_beside_heavy(int vertex) const {
+  const auto fan = root_.vertex_faces[vertex];
+  return std::any_of(fan.begin(), fan.end(), [&](int f) {
+    const auto face = root_.face_vertices[f];
+    return std::any_of(face.begin(), face.end(), [&](int v) { return is_heavy(v); });
+  });
+}
+
 const std::array<Oracle::Implementation::CornerKind, 4>& Oracle::Implementation::kinds(int face) {
   const auto [at, is_new] = kinds_.try_emplace(face);
   for (int c = 0; is_new && c < face_corners(); ++c) {
-    const bool heavy = root_.vertex_faces.count(root_.face_vertices[face][c]) > options_.heavy_valence;
-    at->second[c] = {heavy || !is_regular(root_, rules, face, c), heavy};
+    const int vertex = root_.face_vertices[face][c];
+    const bool heavy = is_heavy(vertex), irregular = heavy || !is_regular(root_, rules, face, c);
+    at->second[c] = {irregular, heavy, irregular && !heavy && is_beside_heavy(vertex)};
   }
   return at->second;
 }
@@ -206,36 +224,33 @@ LimitSample Oracle::Implementation::at_corner(int face, int corner) {
 }
 
 /// After `level` steps the distance d 2^level lies in (1/2, 1]: in the corner's child, but not in that one's own.
-SurfaceValues Oracle::Implementation::by_chain(bool finer, const Place& at, int corner) {
+SurfaceValues Oracle::Implementation::by_chain(Chains& chains, const TaggedMesh& mesh, const Place& at, int corner) {
   int exponent;
   const double mantissa = std::frexp(distance(at, corner), &exponent);
   const int level = -exponent + (mantissa == 0.5);
   const auto [cu, cv] = corner_position(corner);
   const double u = cu + std::ldexp(at.u - cu, level), v = cv + std::ldexp(at.v - cv, level);
-  // Chains are dropped all at once when they have grown large: they are quick to build again where they are needed.
-  constexpr std::size_t most_faces = 1'000'000;
-  if (chain_faces_ > most_faces) chains_.clear(), chain_faces_ = 0;
-  const TaggedMesh& mesh = finer ? finer_->mesh : root_;
+  if (chains.faces > chains.most_faces) chains.by_vertex.clear(), chains.faces = 0;
   const int vertex = mesh.face_vertices[at.face][corner];
-  std::unique_ptr<CornerChain>& chain = chains_[{finer, vertex}];
-  if (!chain) chain = std::make_unique<CornerChain>(mesh, rules, vertex, cache_);
+  std::unique_ptr<CornerChain>& chain = chains.by_vertex[vertex];
+  if (!chain) chain = std::make_unique<CornerChain>(mesh, rules, vertex, wide_chains_, cache_);
   const std::size_t before = chain->size();
   SurfaceValues values = chain->evaluate(at.face, corner, level, u, v);
-  chain_faces_ += chain->size() - before;
+  chains.faces += chain->size() - before;
   values.rescale(at.scale);
   return values;
 }
 
 /// A corner beside a heavy one starts from the mesh refined once more as a whole. There the heavy vertex is two rings
 /// away and its many faces stay out of the corner's chain; else each corner of a large n-gon would drag them along.
-SurfaceValues Oracle::Implementation::near_corner(Place at, int corner) {
-  const auto& kind = kinds(at.face);
-  const bool beside_heavy = std::any_of(kind.begin(), kind.begin() + face_corners(), [](auto k) { return k.heavy; });
-  if (kind[corner].heavy || !beside_heavy || distance(at, corner) > 0.5) return by_chain(false, at, corner);
+SurfaceValues Oracle::Implementation::near_corner(const Place& at, int corner) {
+  const CornerKind& kind = kinds(at.face)[corner];
+  if (kind.heavy) return by_chain(heavy_, root_, at, corner);
+  if (!kind.beside_heavy || distance(at, corner) > 0.5) return by_chain(light_, root_, at, corner);
   if (!finer_) finer_ = refine(root_, rules);
   const auto [cu, cv] = corner_position(corner);  // the corner's child has the same corner, at the same place
-  return by_chain(true, {finer_->face_children[at.face][corner], cu + 2 * (at.u - cu), cv + 2 * (at.v - cv), 2 * at.scale},
-                  corner);
+  const Place child{finer_->face_children[at.face][corner], cu + 2 * (at.u - cu), cv + 2 * (at.v - cv), 2 * at.scale};
+  return by_chain(finer_light_, finer_->mesh, child, corner);
 }
 
 std::optional<LimitSample> Oracle::Implementation::evaluate(const SurfaceParameter& parameter) {

@@ -27,7 +27,8 @@ SurfaceParameter random_parameter(const Piece& piece, bool triangular, Random& r
   return at;
 }
 
-/// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it.
+/// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it. On triangles
+/// u + v may be above 1 by less than a double shows.
 SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, Random& random) {
   SurfaceParameter at{piece.face, piece.sub, 0, 0};
   if (triangular) {
@@ -38,7 +39,7 @@ SurfaceParameter near_corner(const Piece& piece, bool triangular, double distanc
       case 1: at.v = share, at.u = 1 - distance; break;
       default: at.u = share, at.v = 1 - distance; break;
     }
-    at.v = std::min(at.v, 1 - at.u);
+    if (at.u + at.v > 1) at.v = 1 - at.u;
     return at;
   }
   double du = distance, dv = distance * along;
@@ -53,6 +54,7 @@ SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, Random&
   switch (random.index(16)) {
     case 0: return near_corner(piece, triangular, 0, along, random);
     case 1: return near_corner(piece, triangular, distance, random.one_in(2) ? 0 : triangular, random);
+    case 2: return near_corner(piece, triangular, random.log_between(1e-40, 1e-8), along, random);
     default: return near_corner(piece, triangular, distance, along, random);
   }
 }
