@@ -49,7 +49,7 @@ class ExactFinish {
   static constexpr int deepest = 52;
   /// A ray that runs within a surface, or along a fold, meets it in a curve; the cells around a curve are without
   /// number. Past this many, cells count as points once they are this deep: below 1e-12 of the patch.
-  static constexpr int patience = 4096;
+  static constexpr int patience = 512;
   static constexpr int deepest_out_of_patience = 42;
 
   enum class Verdict { none, found, unknown };
@@ -147,7 +147,9 @@ bool ExactFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) 
   std::array<double, 16> plane, rest;
   combine(ab.x(), cell.x, ab.y(), cell.y, plane);
   combine(1, cell.z, -1, plane, rest);
-  return Range(rest).low > best_.distance - error_ * (1 + ab.cwiseAbs().sum());
+  // A ray that has found hit after hit, each a little nearer, is running along the surface: ask for more each time.
+  const double impatience = std::exp2(std::min(60, cells_ / patience));
+  return Range(rest).low > best_.distance - impatience * error_ * (1 + ab.cwiseAbs().sum());
 }
 
 /// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared

@@ -33,28 +33,28 @@ class ShaoLin {
   bool occluded(const Ray& ray, RayCounters& counters) const;
 
   const Bvh& bvh() const { return bvh_; }
-  std::uint64_t limit_faces() const { return face_of_primitive_.size(); }
+  std::uint64_t limit_faces() const { return primitives_.size(); }
   std::uint64_t faces_touched() const { return faces_touched_; }
   std::uint64_t patches_split() const { return totals_.patches_split; }
   std::uint64_t bytes() const {
-    return totals_.bytes + bvh_.bytes() +
-           face_of_primitive_.size() * (sizeof(int) + sizeof(std::atomic<StartPatches*>));
+    return totals_.bytes + bvh_.bytes() + primitives_.size() * (sizeof(Primitive) + sizeof(std::atomic<StartPatch*>));
   }
 
  private:
   using Node = PatchNode<S>;
   using Regular = typename S::Regular;
 
-  /// A start patch: the patch of a face, or of an n-gon's corner, and the normal of its plane TP.
+  /// A start patch: the patch of a face, or of an n-gon's corner, and the normal of its plane TP; made when a ray first
+  /// reaches its box.
   struct StartPatch {
     Node root;
     Vec3 normal;
-    int sub;
     FourBoxes box{};  ///< the root's, in the first place
   };
-  /// All start patches of a face; made when a ray first reaches the face.
-  struct StartPatches {
-    std::vector<std::unique_ptr<StartPatch>> patches;
+
+  /// What a leaf of the hierarchy stands for.
+  struct Primitive {
+    int face, sub;
   };
 
   /// A place in a node's parameters, met at a distance along the ray.
@@ -74,7 +74,7 @@ class ShaoLin {
     Found found{};
   };
 
-  const StartPatches& start_patches(int primitive) const;
+  const StartPatch& start_patch(int primitive) const;
   Vec3 plane_normal(const Patch<S>& patch) const;
   template <Query query>
   void descend(const Node& node, Search& search) const;
@@ -85,9 +85,9 @@ class ShaoLin {
   LimitSample sample(const Found& found, const SurfaceParameter& at) const;
 
   const SchemeSurface<S>& surface_;
-  std::vector<int> face_of_primitive_;
+  std::vector<Primitive> primitives_;
   Bvh bvh_;
-  mutable std::vector<std::atomic<StartPatches*>> start_patches_;
+  mutable std::vector<std::atomic<StartPatch*>> start_patches_;
   mutable TreeTotals totals_;
   mutable std::atomic<std::uint64_t> faces_touched_{0};
 
@@ -111,11 +111,13 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface)
     const double slack = 160 * unit_roundoff * box.largest_coordinate();
     box.lower.array() -= slack;
     box.upper.array() += slack;
-    boxes.push_back(box);
-    face_of_primitive_.push_back(f);
+    for (int sub = 0; sub < surface.sub_count(f); ++sub) {
+      boxes.push_back(box);
+      primitives_.push_back({f, sub});
+    }
   }
   bvh_ = Bvh(boxes);
-  start_patches_ = std::vector<std::atomic<StartPatches*>>(boxes.size());
+  start_patches_ = std::vector<std::atomic<StartPatch*>>(boxes.size());
 }
 
 /// The normal of TP: of the plane through the corners' limit points (section 8.2 for quads). A corner whose limit masks
@@ -124,7 +126,7 @@ template <Scheme S, template <class> class Finish>
 Vec3 ShaoLin<S, Finish>::plane_normal(const Patch<S>& patch) const {
   std::vector<Vec3> corners;
   for (int k = 0; k < patch.configuration->corner_count(); ++k) {
-    const std::optional<CornerLimit> limit = corner_limit(patch, k);
+    const std::optional<LimitAtCorner> limit = corner_limit(patch, k);
     corners.push_back(limit ? limit->position : patch.points[static_cast<std::size_t>(k)]);
   }
   using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
@@ -132,26 +134,19 @@ Vec3 ShaoLin<S, Finish>::plane_normal(const Patch<S>& patch) const {
 }
 
 template <Scheme S, template <class> class Finish>
-auto ShaoLin<S, Finish>::start_patches(int primitive) const -> const StartPatches& {
-  std::atomic<StartPatches*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
-  if (const StartPatches* known = slot.load(std::memory_order_acquire)) return *known;
+auto ShaoLin<S, Finish>::start_patch(int primitive) const -> const StartPatch& {
+  std::atomic<StartPatch*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
+  if (const StartPatch* known = slot.load(std::memory_order_acquire)) return *known;
 
-  const int face = face_of_primitive_[static_cast<std::size_t>(primitive)];
-  const Patch<S> whole = surface_.mesh().patch(face, surface_.table());
-  const bool by_corner = surface_.splits_by_corner(face);
-  auto made = std::make_unique<StartPatches>();
-  std::uint64_t bytes = sizeof(StartPatches);
-  for (int sub = 0; sub < surface_.sub_count(face); ++sub) {
-    Patch<S> patch = by_corner ? whole.child(sub) : whole;
-    const Vec3 normal = plane_normal(patch);
-    made->patches.emplace_back(new StartPatch{Node(std::move(patch), by_corner, totals_), normal, sub});
-    made->patches.back()->box.set(0, made->patches.back()->root.box());
-    bytes += sizeof(StartPatch) + made->patches.back()->root.own_bytes();
-  }
-  StartPatches* expected = nullptr;
+  const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+  Patch<S> patch = surface_.patch(face, sub);
+  const Vec3 normal = plane_normal(patch);
+  std::unique_ptr<StartPatch> made(
+      new StartPatch{Node(std::move(patch), surface_.splits_by_corner(face), totals_), normal});
+  made->box.set(0, made->root.box());
+  StartPatch* expected = nullptr;
   if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-  totals_.bytes += bytes;
-  totals_.patches_split += by_corner;
+  totals_.bytes += sizeof(StartPatch) + made->root.own_bytes();
   ++faces_touched_;
   return *made.release();
 }
@@ -164,20 +159,17 @@ auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) 
   bvh_.traverse(
       ray, [&] { return far; },
       [&](int primitive, double) {
-        for (const auto& start : start_patches(primitive).patches) {
-          // The tree's own box pays where it saves a finish, or where it stands among the many of an n-gon.
-          const bool ask_box = start->root.is_leaf() || start->sub > 0;
-          if (ask_box && BoxOrder(start->box, ray, far).count() == 0) continue;
-          Search search{ray, RayFrame(ray, start->normal), far, counters};
-          descend<query>(start->root, search);
-          if (!search.found.node) continue;
-          best = search.found;
-          best.face = face_of_primitive_[static_cast<std::size_t>(primitive)];
-          best.sub = start->sub;
-          far = std::min(far, best.hit.distance);
-          if (query == Query::any) return true;
-        }
-        return false;
+        const StartPatch& start = start_patch(primitive);
+        // The tree's own box pays only where it saves a finish: otherwise its children's boxes come next.
+        if (start.root.is_leaf() && BoxOrder(start.box, ray, far).count() == 0) return false;
+        Search search{ray, RayFrame(ray, start.normal), far, counters};
+        descend<query>(start.root, search);
+        if (!search.found.node) return false;
+        best = search.found;
+        best.face = primitives_[static_cast<std::size_t>(primitive)].face;
+        best.sub = primitives_[static_cast<std::size_t>(primitive)].sub;
+        far = std::min(far, best.hit.distance);
+        return query == Query::any;
       });
   return best;
 }
@@ -206,9 +198,16 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
 template <Scheme S, template <class> class Finish>
 LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
-  if (!found.node->is_regular() || found.node->level() > deepest_absolute) return *surface_.evaluate(at);
+  const bool regular = found.node->is_regular();
+  if (!regular || found.node->level() > deepest_absolute) {
+    // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
+    LimitSample sample = *surface_.evaluate(at);
+    sample.position = regular ? found.node->regular().template bezier<Regular>().position(found.hit.at)
+                              : found.node->irregular().points.front();
+    return sample;
+  }
   return detail::sample(found.node->regular().template bezier<Regular>(), found.hit.at, Vec3::Zero(),
-                        1 / found.node->scale());
+                        1 / found.node->scale(), 1);
 }
 
 /// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,
@@ -257,7 +256,7 @@ template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Box& hull, Search& search) const {
   const double error = search.frame.error(node.box());
   if (hull.upper.z() < search.ray.near - error) return;
-  const double distance = std::max(hull.centre().z(), search.ray.near);
+  const double distance = std::max(search.frame.project(node.irregular().points.front()).z(), search.ray.near);
   if (distance > search.far - (search.far < search.ray.far ? error : 0)) return;
   search.found.node = &node;
   search.found.hit = {Domain<S::face_kind>::centre(), distance};

@@ -8,7 +8,7 @@
 namespace shaolin {
 
 /// Position and, where the surface has one, the unit normal at a corner.
-struct CornerLimit {
+struct LimitAtCorner {
   Vec3 position;
   std::optional<Vec3> normal;
 };
@@ -26,7 +26,7 @@ inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* point
 }
 
 template <Scheme S>
-CornerLimit smooth_limit(const Ring& ring, const Vec3* points) {
+LimitAtCorner smooth_limit(const Ring& ring, const Vec3* points) {
   const int n = static_cast<int>(ring.spokes.size());
   std::vector<int> ends, diagonals;
   for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
@@ -43,7 +43,7 @@ CornerLimit smooth_limit(const Ring& ring, const Vec3* points) {
 
 /// The crease is the cubic spline through its vertices; the patch's side leaves it along the cross tangent.
 template <Scheme S>
-CornerLimit crease_limit(const Ring& ring, const Vec3* points, std::size_t first, int faces) {
+LimitAtCorner crease_limit(const Ring& ring, const Vec3* points, std::size_t first, int faces) {
   const Vec3& a = points[ring.spokes[first].end];
   const Vec3& b = points[ring.spokes[(first + static_cast<std::size_t>(faces)) % ring.spokes.size()].end];
   const Vec3 position = CubicCrease::limit_vertex * points[ring.vertex] + CubicCrease::limit_edge * (a + b);
@@ -54,7 +54,7 @@ CornerLimit crease_limit(const Ring& ring, const Vec3* points, std::size_t first
 /// The limit where no mask is known, by splitting towards the corner. Its neighbours come nearer by a factor of at most
 /// 0.66 a level (Catmull-Clark at high valence); after 100 levels they are within 1e-18 of their first distance.
 template <Scheme S>
-CornerLimit limit_by_refinement(Patch<S> patch, int k) {
+LimitAtCorner limit_by_refinement(Patch<S> patch, int k) {
   constexpr int levels = 100;
   for (int level = 0; level < levels; ++level) patch = patch.child(k);
   return {patch.points[static_cast<std::size_t>(k)], {}};
@@ -67,7 +67,7 @@ CornerLimit limit_by_refinement(Patch<S> patch, int k) {
 /// plane, and each direction into the surface has its own. A dart has no closed form: the smooth vertex's limit mask
 /// (which OpenSubdiv takes) ignores that the sharp edge's own rule changes the subdivision matrix.
 template <Scheme S>
-std::optional<CornerLimit> corner_limit(const Patch<S>& patch, int k) {
+std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Neighbourhood& n = patch.configuration->neighbourhood();
   const Ring& ring = n.rings[static_cast<std::size_t>(k)];
   const std::vector<float> sharpness = ring.spoke_sharpness();
@@ -87,7 +87,7 @@ std::optional<CornerLimit> corner_limit(const Patch<S>& patch, int k) {
     default:
       break;
   }
-  CornerLimit limit{points[ring.vertex], {}};
+  LimitAtCorner limit{points[ring.vertex], {}};
   if (!ring.closed && ring.faces.size() == 1) {
     const Vec3 u = points[ring.spokes[0].end] - limit.position, v = points[ring.spokes[1].end] - limit.position;
     limit.normal = u.cross(v).normalized();

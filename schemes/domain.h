@@ -55,7 +55,8 @@ struct Domain<FaceKind::triangle> {
   static Parameter centre() { return {1.0 / 3, 1.0 / 3}; }
   static bool contains(const Parameter& p) { return p.x() >= 0 && p.y() >= 0 && p.x() + p.y() <= 1; }
   static Parameter nearest(const Parameter& p) {
-    if (p.x() + p.y() > 1) {
+    // 1 - x is exact for x >= 1/2, x + y is not: (1, 1e-20) lies outside, and halving the domain would show it.
+    if (p.y() > 1 - p.x() || p.x() > 1 - p.y()) {
       const double along = std::min(1.0, std::max(0.0, 0.5 * (1 + p.x() - p.y())));
       return {along, 1 - along};
     }

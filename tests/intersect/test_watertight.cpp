@@ -60,7 +60,7 @@ std::vector<Vec3> directions_at(const LimitSample& sample, Random& random, int m
 
 }  // namespace
 
-TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin]") {
+TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin][sweep]") {
   for (const Model& model : all_models()) {
     CAPTURE(model.name, model.scheme);
     const Scene scene(model.mesh, model.scheme);
@@ -81,7 +81,7 @@ TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin]")
   }
 }
 
-TEST_CASE("No ray aimed at a point of an edge is lost", "[intersect][shaolin]") {
+TEST_CASE("No ray aimed at a point of an edge is lost", "[intersect][shaolin][sweep]") {
   for (const Model& model : all_models()) {
     CAPTURE(model.name, model.scheme);
     const Scene scene(model.mesh, model.scheme);

@@ -91,15 +91,17 @@ inline ControlMesh sheet(int m, int n, bool triangles) {
 
 /// Interior valence 2: the middle vertex of two quads that share two edges, inside a ring of quads.
 inline ControlMesh valence_two() {
-  return mesh_of({{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {2, 0, 0.3}, {0, 2, 0}, {-2, 0, 0.3}, {0, -2, 0}},
-                 {{0, 1, 2, 3}, {0, 3, 4, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}});
+  return mesh_of(
+      {{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {2, 0, 0.3}, {0, 2, 0}, {-2, 0, 0.3}, {0, -2, 0}},
+      {{0, 1, 2, 3}, {0, 3, 4, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}});
 }
 
-/// Two triangles back to back: three interior vertices of valence 2, and two edges between the same points after a step.
-/// Its limit is flat and folded at the edges.
+/// Two triangles back to back: three interior vertices of valence 2, and two edges between the same points after a
+/// step. Its limit is flat and folded at the edges.
 inline ControlMesh pillow() { return mesh_of({{0, 0, 0}, {1, 0, 0.2}, {0.3, 1, 0}}, {{0, 1, 2}, {1, 0, 2}}); }
 
-inline ControlMesh with_edges(ControlMesh mesh, std::vector<SharpEdge> edges, CreaseMethod method = CreaseMethod::uniform) {
+inline ControlMesh with_edges(ControlMesh mesh, std::vector<SharpEdge> edges,
+                              CreaseMethod method = CreaseMethod::uniform) {
   mesh.sharp_edges = std::move(edges);
   mesh.crease_method = method;
   return mesh;
@@ -119,16 +121,19 @@ inline std::vector<Model> models() {
       all.push_back({scheme + " " + name, scheme, std::move(mesh)});
     };
     const ControlMesh body = loop ? pyramids(5) : cube();
-    const std::pair<int, int> e1 = loop ? std::pair(0, 2) : std::pair(0, 1), e2 = loop ? std::pair(2, 3) : std::pair(1, 2),
+    const std::pair<int, int> e1 = loop ? std::pair(0, 2) : std::pair(0, 1),
+                              e2 = loop ? std::pair(2, 3) : std::pair(1, 2),
                               e3 = loop ? std::pair(0, 4) : std::pair(1, 5);
     add("smooth", body);
     add("tetrahedron", tetrahedron());
     add("dart", with_edges(body, {{e1.first, e1.second, 10}}));
     add("crease", with_edges(body, {{e1.first, e1.second, 10}, {e2.first, e2.second, 10}}));
     add("corner", with_edges(body, {{e1.first, e1.second, 10}, {e2.first, e2.second, 10}, {e3.first, e3.second, 10}}));
-    add("semi-sharp", with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 10}}));
-    add("Chaikin", with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 3}},
-                              CreaseMethod::chaikin));
+    add("semi-sharp",
+        with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 10}}));
+    add("Chaikin",
+        with_edges(body, {{e1.first, e1.second, 2.5f}, {e2.first, e2.second, 1.2f}, {e3.first, e3.second, 3}},
+                   CreaseMethod::chaikin));
     ControlMesh vertices = body;
     vertices.sharp_vertices = {{0, 10}, {1, 2.3f}, {3, 0.4f}};
     add("sharp vertices", vertices);

@@ -49,8 +49,9 @@ std::unique_ptr<Far::TopologyRefiner> osd_refiner(const ControlMesh& mesh, const
   d.cornerVertexIndices = corners.data();
   d.cornerWeights = corner_weights.data();
   Sdc::Options options;
-  constexpr Sdc::Options::VtxBoundaryInterpolation boundary[] = {
-      Sdc::Options::VTX_BOUNDARY_NONE, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, Sdc::Options::VTX_BOUNDARY_EDGE_ONLY};
+  constexpr Sdc::Options::VtxBoundaryInterpolation boundary[] = {Sdc::Options::VTX_BOUNDARY_NONE,
+                                                                 Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER,
+                                                                 Sdc::Options::VTX_BOUNDARY_EDGE_ONLY};
   options.SetVtxBoundaryInterpolation(boundary[static_cast<int>(mesh.boundary)]);
   if (mesh.crease_method == CreaseMethod::chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
   if (mesh.triangle_subdivision == TriangleSubdivision::smooth) {
@@ -74,7 +75,8 @@ struct Cell {
 
 /// Refines the whole mesh and calls visit(parameter, limit position) for the grid of 2^levels steps of every piece,
 /// without the pieces' corners: there the masks may be wrong.
-void brute_force(const Model& model, int levels, const std::function<void(const SurfaceParameter&, const Vec3&)>& visit) {
+void brute_force(const Model& model, int levels,
+                 const std::function<void(const SurfaceParameter&, const Vec3&)>& visit) {
   const auto refiner = osd_refiner(model.mesh, model.scheme);
   Far::TopologyRefiner::UniformOptions uniform(levels);
   uniform.fullTopologyInLastLevel = true;
@@ -144,7 +146,7 @@ TEST_CASE("the oracle gives the limit points of the whole mesh, refined", "[tool
   CHECK(worst_against_brute_force({"pillow", "loop", pillow()}, 6, {}) <= 1e-12);
 }
 
-TEST_CASE("refinement of a corner's 3-ring alone gives the same limit points", "[tools][oracle]") {
+TEST_CASE("refinement of a corner's 3-ring alone gives the same limit points", "[tools][oracle][sweep]") {
   for (const Model& model : models()) {
     INFO(model.name);
     CHECK(worst_against_brute_force(model, 6, {.zone = 1}) <= 1e-12);
@@ -154,7 +156,8 @@ TEST_CASE("refinement of a corner's 3-ring alone gives the same limit points", "
 }
 
 TEST_CASE("close to irregular corners the oracle agrees with nine levels of the whole mesh", "[tools][oracle]") {
-  for (const Model& model : {Model{"catmark tetrahedron", "catmark", tetrahedron()}, Model{"loop tetrahedron", "loop", tetrahedron()}}) {
+  for (const Model& model :
+       {Model{"catmark tetrahedron", "catmark", tetrahedron()}, Model{"loop tetrahedron", "loop", tetrahedron()}}) {
     INFO(model.name);
     const Oracle oracle(model.mesh, model.scheme);
     double worst = 0;
@@ -172,7 +175,8 @@ TEST_CASE("close to irregular corners the oracle agrees with nine levels of the 
 TEST_CASE("the oracle is continuous across the zone that it refines", "[tools][oracle]") {
   for (const Model& model : models()) {
     INFO(model.name);
-    const Oracle refines(model.mesh, model.scheme), evaluates_bfr(model.mesh, model.scheme, {.zone = std::ldexp(1, -10)});
+    const Oracle refines(model.mesh, model.scheme),
+        evaluates_bfr(model.mesh, model.scheme, {.zone = std::ldexp(1, -10)});
     std::mt19937 random(3);
     for (int i = 0; i < 200; ++i) {
       SurfaceParameter at = random_parameter(refines, random);
@@ -219,7 +223,7 @@ TEST_CASE("the oracle's derivatives are those of its positions", "[tools][oracle
   }
 }
 
-TEST_CASE("at a corner the oracle gives the limit of the points around it", "[tools][oracle]") {
+TEST_CASE("at a corner the oracle gives the limit of the points around it", "[tools][oracle][sweep]") {
   for (const Model& model : models()) {
     INFO(model.name);
     const Oracle oracle(model.mesh, model.scheme);
@@ -233,7 +237,7 @@ TEST_CASE("at a corner the oracle gives the limit of the points around it", "[to
   }
 }
 
-TEST_CASE("the oracle's normals at corners are limits where there are any", "[tools][oracle]") {
+TEST_CASE("the oracle's normals at corners are limits where there are any", "[tools][oracle][sweep]") {
   int with_normal = 0;
   for (const Model& model : models()) {
     INFO(model.name);
@@ -292,7 +296,7 @@ TEST_CASE("the oracle's parameters on n-gons are Bfr's sub-faces", "[tools][orac
   }
 }
 
-TEST_CASE("high valence costs the oracle moderate time and no accuracy", "[tools][oracle]") {
+TEST_CASE("high valence costs the oracle moderate time and no accuracy", "[tools][oracle][sweep]") {
   for (const std::string scheme : {"catmark", "loop"}) {
     INFO(scheme);
     const Model model{scheme, scheme, pyramids(360)};

@@ -40,8 +40,7 @@ Validation check_model(const ValidateOptions& options) {
   if (options.rays > 0) {
     result.dense_level = dense_level_for(oracle);
     const DenseCheck dense(oracle, result.dense_level);
-    const Box box = scene.bounds();
-    const auto rays = sample_rays(oracle, box.lower, box.upper, options.rays, options.seed);
+    const auto rays = sample_rays(oracle, options.rays, options.seed);
     result.rays = check_rays(Intersector::of(scene), oracle, dense, rays);
   }
   result.seconds = stopwatch.lap();

@@ -48,7 +48,8 @@ void CornerChain::grow() {
 Piece& CornerChain::piece(Level& level, int corner, int child) {
   const auto found = level.pieces.find({corner, child});
   if (found != level.pieces.end()) return found->second;
-  return level.pieces.try_emplace({corner, child}, level.mesh, level.cells[corner][child], rules_, cache_).first->second;
+  return level.pieces.try_emplace({corner, child}, level.mesh, level.cells[corner][child], rules_, cache_)
+      .first->second;
 }
 
 SurfaceValues CornerChain::evaluate(int face, int corner, int level, double u, double v) {

@@ -47,9 +47,9 @@ class CornerChain {
 
   SubdivisionRules rules_;
   OpenSubdiv::Bfr::SurfaceFactoryCache& cache_;
-  int rings_;                     // of a level; a step cuts out one less
-  std::vector<Corner> corners_;   // in the original mesh
-  std::vector<int> base_faces_;   // the same faces in level 0's mesh
+  int rings_;                    // of a level; a step cuts out one less
+  std::vector<Corner> corners_;  // in the original mesh
+  std::vector<int> base_faces_;  // the same faces in level 0's mesh
   std::vector<Level> levels_;
   std::size_t size_ = 0;
 };

@@ -96,7 +96,9 @@ Vec3 contract(const Ring& ring, const SubdivisionRules& rules) {
 std::vector<Vec3> flat_ring(const Ring& ring, const Sector& sector) {
   std::vector<Vec3> flat(ring.mesh.points.size(), Vec3::Zero());
   const double step = (sector.closed ? 2 : 1) * std::numbers::pi / sector.size();
-  const auto at = [](double angle, double radius) { return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0); };
+  const auto at = [](double angle, double radius) {
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0);
+  };
   for (int i = 0; i < sector.size(); ++i) {
     const int f = sector.faces[i], corner = sector.corners[i];
     flat[ring.mesh.next_vertex(f, corner)] = at(i * step, 1);
@@ -188,13 +190,13 @@ Ring sector_ring(const Ring& ring, const Sector& sector) {
 /// 1/4) and the oscillating ones of angle pi j / n, which have the eigenvalue of a smooth vertex at 2 pi j / valence.
 /// One face: everything but the crease's own plane contracts like 1/4 or slower modes lie in that plane (for
 /// Catmull-Clark the twist is driven along the crease's second difference), so the end edges span the tangent plane.
-/// More faces: the tangent plane is that of the first oscillating mode and the crease's direction, as long as the second
-/// oscillating mode stays below 1/2 (Catmull-Clark: n < 4, Loop: n < 6).
-/// A sharp corner has both ends at 1/2; already the first oscillating mode must stay below (Loop, two faces: 3/8).
+/// More faces: the tangent plane is that of the first oscillating mode and the crease's direction, as long as the
+/// second oscillating mode stays below 1/2 (Catmull-Clark: n < 4, Loop: n < 6). A sharp corner has both ends at 1/2;
+/// already the first oscillating mode must stay below (Loop, two faces: 3/8).
 Vec3 open_sector_normal(const Ring& ring, const Sector& sector, const SubdivisionRules& rules) {
   const int n = sector.size();
-  const bool corner = ring.mesh.vertex_sharpness[ring.centre()] >= osd_infinite ||
-                      crease_count(ring.mesh, ring.centre()) > 2;
+  const bool corner =
+      ring.mesh.vertex_sharpness[ring.centre()] >= osd_infinite || crease_count(ring.mesh, ring.centre()) > 2;
   if (n == 1 || (corner && rules.triangular() && n == 2)) return normal_of_ends(ring, sector);
   if (corner || n > (rules.triangular() ? 5 : 3)) return Vec3::Zero();
   const Ring side = sector_ring(ring, sector);

@@ -257,7 +257,8 @@ void DenseCheck::Implementation::look(const Line& ray, const Triangle& triangle,
   const bool edge_on = std::abs(normal.dot(ray.direction)) < 0.3 * normal.norm() * std::sqrt(ray.squared_length);
   const auto start_at = [&](const std::array<double, 3>& weights) {
     SurfaceParameter at{pieces_[triangle.piece].face, pieces_[triangle.piece].sub, 0, 0};
-    for (std::size_t k = 0; k < 3; ++k) at.u += weights[k] * grid[k][0] / steps_, at.v += weights[k] * grid[k][1] / steps_;
+    for (std::size_t k = 0; k < 3; ++k)
+      at.u += weights[k] * grid[k][0] / steps_, at.v += weights[k] * grid[k][1] / steps_;
     const auto hit = polish(ray, inside(at));
     if (!hit || hit->t < tmin || hit->t > tmax) return;
     best = hit, tmax = hit->t;
@@ -302,7 +303,8 @@ DenseCheck::DenseCheck(const Oracle& oracle, int level) {
 DenseCheck::~DenseCheck() = default;
 DenseCheck::DenseCheck(DenseCheck&&) noexcept = default;
 
-std::optional<OracleHit> DenseCheck::closest(const Vec3& origin, const Vec3& direction, double tmin, double tmax) const {
+std::optional<OracleHit> DenseCheck::closest(const Vec3& origin, const Vec3& direction, double tmin,
+                                             double tmax) const {
   return implementation_->closest(Line(origin, direction), tmin, tmax);
 }
 

@@ -16,8 +16,8 @@ struct OracleHit {
 };
 
 /// Evaluates every face that has a limit on a grid of 2^level steps a side; its triangles span two steps, the points
-/// between bound how far the surface bulges from them. It may itself miss a hit (several roots in one triangle, features
-/// smaller than one); what it finds is on the surface.
+/// between bound how far the surface bulges from them. It may itself miss a hit (several roots in one triangle,
+/// features smaller than one); what it finds is on the surface.
 class DenseCheck {
  public:
   /// Keeps a reference to the oracle. Level is from 1 to 10, else throws std::out_of_range. O(faces x 4^level)

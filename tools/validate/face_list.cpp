@@ -165,8 +165,9 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(const FaceList& mesh, const S
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Factory::Create(descriptor, Factory::Options(rules.scheme, rules.options)));
-  if (!refiner) throw std::runtime_error("OpenSubdiv cannot build the topology of a mesh of " +
-                                         std::to_string(mesh.sizes.size()) + " faces");
+  if (!refiner)
+    throw std::runtime_error("OpenSubdiv cannot build the topology of a mesh of " + std::to_string(mesh.sizes.size()) +
+                             " faces");
   return refiner;
 }
 

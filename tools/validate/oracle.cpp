@@ -38,9 +38,12 @@ SubdivisionRules rules_of(const ControlMesh& mesh, const std::string& scheme) {
 
 Sdc::Options::VtxBoundaryInterpolation boundary_of(BoundaryInterpolation boundary) {
   switch (boundary) {
-    case BoundaryInterpolation::none: return Sdc::Options::VTX_BOUNDARY_NONE;
-    case BoundaryInterpolation::edge_only: return Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
-    case BoundaryInterpolation::edge_and_corner: break;
+    case BoundaryInterpolation::none:
+      return Sdc::Options::VTX_BOUNDARY_NONE;
+    case BoundaryInterpolation::edge_only:
+      return Sdc::Options::VTX_BOUNDARY_EDGE_ONLY;
+    case BoundaryInterpolation::edge_and_corner:
+      break;
   }
   return Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
 }
@@ -135,19 +138,18 @@ class Oracle::Implementation {
   SurfaceValues by_chain(Chains& chains, const TaggedMesh& mesh, const Place& at, int corner);
 
   OracleOptions options_;
-  TaggedMesh root_;                // the control mesh, or its first refinement if that has other faces than root's
-  Relation face_children_;         // per control face: its faces in root_; empty without refinement
+  TaggedMesh root_;         // the control mesh, or its first refinement if that has other faces than root's
+  Relation face_children_;  // per control face: its faces in root_; empty without refinement
   Bfr::SurfaceFactoryCache cache_;
   std::unordered_map<int, std::array<CornerKind, 4>> kinds_;
   std::unordered_map<int, std::unique_ptr<Piece>> pieces_;
-  std::optional<Refined> finer_;   // root_ once more, if needed
+  std::optional<Refined> finer_;  // root_ once more, if needed
   bool wide_chains_;
   Chains light_{1'000'000}, heavy_{5'000'000}, finer_light_{1'000'000};
   std::map<std::pair<int, int>, CornerLimit> limits_;
 };
 
-Oracle::Implementation::Implementation(const ControlMesh& mesh, const std::string& scheme,
-                                       const OracleOptions& options)
+Oracle::Implementation::Implementation(const ControlMesh& mesh, const std::string& scheme, const OracleOptions& options)
     : rules(rules_of(mesh, scheme)), options_(options) {
   const auto refiner = control_refiner(mesh, rules);
   Vec3 lower = mesh.positions.front(), upper = lower;

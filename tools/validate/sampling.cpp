@@ -27,19 +27,19 @@ SurfaceParameter random_parameter(const Piece& piece, bool triangular, Random& r
   return at;
 }
 
-/// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it. On triangles
-/// u + v may be above 1 by less than a double shows.
+/// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it. Only the
+/// origin has parameters that are closer to it than a rounding of 1 and yet in the triangle.
 SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, Random& random) {
   SurfaceParameter at{piece.face, piece.sub, 0, 0};
   if (triangular) {
     // Barycentric: 1 - distance for the corner, the rest shared.
     const double share = distance * along, rest = distance - share;
-    switch (random.index(3)) {
+    switch (1 - distance < 1 || distance == 0 ? random.index(3) : 0) {
       case 0: at.u = share, at.v = rest; break;
       case 1: at.v = share, at.u = 1 - distance; break;
       default: at.u = share, at.v = 1 - distance; break;
     }
-    if (at.u + at.v > 1) at.v = 1 - at.u;
+    at.v = std::min(at.v, 1 - at.u);
     return at;
   }
   double du = distance, dv = distance * along;
@@ -54,12 +54,12 @@ SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, Random&
   switch (random.index(16)) {
     case 0: return near_corner(piece, triangular, 0, along, random);
     case 1: return near_corner(piece, triangular, distance, random.one_in(2) ? 0 : triangular, random);
-    case 2: return near_corner(piece, triangular, random.log_between(1e-40, 1e-8), along, random);
+    case 2: return near_corner(piece, triangular, random.log_between(1e-35, 1e-8), along, random);
     default: return near_corner(piece, triangular, distance, along, random);
   }
 }
 
-/// The model's box, and its diagonal as the length unit.
+/// The surface's box, and its diagonal as the length unit.
 struct Surroundings {
   Vec3 lower, upper;
   double diagonal;
@@ -67,13 +67,27 @@ struct Surroundings {
   Vec3 centre() const { return (lower + upper) / 2; }
 };
 
+/// From the corners and a point inside of each piece.
+Surroundings surroundings_of(const Oracle& oracle, const std::vector<Piece>& pieces) {
+  constexpr double places[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.3125, 0.3125}};
+  Vec3 lower = oracle.evaluate({pieces[0].face, pieces[0].sub, 0, 0})->position, upper = lower;
+  for (const Piece& piece : pieces) {
+    for (const auto& [u, v] : places) {
+      const Vec3 point = oracle.evaluate({piece.face, piece.sub, u, v})->position;
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+  }
+  return {lower, upper, (upper - lower).norm()};
+}
+
 ProbeRay camera_ray(const Surroundings& model, Random& random) {
   const Vec3 eye = model.centre() + random.between(0.7, 3) * model.diagonal * random.direction();
   return {RayKind::camera, {eye, random.inside(model.lower, model.upper) - eye}, {}};
 }
 
 ProbeRay incoherent_ray(const Surroundings& model, Random& random) {
-  const Vec3 margin = model.upper - model.lower + Vec3::Constant(0.1 * model.diagonal);
+  const Vec3 margin = 0.25 * (model.upper - model.lower) + Vec3::Constant(0.05 * model.diagonal);
   Ray ray{random.inside(model.lower - margin, model.upper + margin), random.direction()};
   if (random.one_in(4)) {
     ray.tmin = random.between(-0.5, 0.5) * model.diagonal;
@@ -131,17 +145,15 @@ const char* name_of(RayKind kind) {
   return "aimed";
 }
 
-std::vector<ProbeRay> sample_rays(const Oracle& oracle, const Vec3& lower, const Vec3& upper, std::size_t count,
-                                  std::uint64_t seed) {
+std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
   const std::vector<Piece> pieces = pieces_of(oracle);
-  const Surroundings model{lower, upper, (upper - lower).norm()};
-  Random random(seed);
   std::vector<ProbeRay> rays;
+  if (pieces.empty()) return rays;
+  const Surroundings model = surroundings_of(oracle, pieces);
+  Random random(seed);
   for (std::size_t i = 0; i < count + count / 10; ++i) {
     const RayKind kind = i < count ? ray_kinds[i % 3] : RayKind::aimed;
-    const bool needs_surface = kind == RayKind::grazing || kind == RayKind::aimed;
-    if (needs_surface && pieces.empty()) continue;
-    const Piece piece = pieces.empty() ? Piece{0, 0} : pieces[random.index(pieces.size())];
+    const Piece& piece = pieces[random.index(pieces.size())];
     ProbeRay probe = kind == RayKind::camera       ? camera_ray(model, random)
                      : kind == RayKind::incoherent ? incoherent_ray(model, random)
                      : kind == RayKind::grazing    ? grazing_ray(oracle, piece, model, random)

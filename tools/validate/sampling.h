@@ -13,13 +13,13 @@ namespace shaolin {
 
 /// Faces with a limit surface and their subs, each as likely; u and v uniform, but a quarter of them at distances from a
 /// random corner of the domain (in the largest of |du|, |dv|) that are log-uniform from 1 down to 1e-8. Of that quarter
-/// one in sixteen is the corner itself, one in sixteen lies on a side, and one in sixteen is from 1e-8 to 1e-40 away.
+/// one in sixteen is the corner itself, one in sixteen lies on a side, and one in sixteen is from 1e-8 to 1e-35 away.
 /// Empty if no face has a limit surface.
 std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed);
 
 enum class RayKind {
   camera,      ///< from a sphere around the model to points of its box
-  incoherent,  ///< origins in a box three times as large, any direction; every fourth with a finite interval
+  incoherent,  ///< origins in a box half as large again, any direction; every fourth with a finite interval
   grazing,     ///< through a surface point, 1e-4 to 1e-1 rad out of its tangent plane
   aimed        ///< at a corner of a patch or a point of its sides, exactly
 };
@@ -34,8 +34,8 @@ struct ProbeRay {
 };
 
 /// `count` rays, in thirds camera, incoherent and grazing, and a tenth of that in addition aimed. Directions have
-/// lengths from 1e-2 to 1e2. `lower` and `upper` bound the model. Grazing and aimed rays need a face with a limit surface.
-std::vector<ProbeRay> sample_rays(const Oracle& oracle, const Vec3& lower, const Vec3& upper, std::size_t count,
-                                  std::uint64_t seed);
+/// lengths of several orders of magnitude. The model's box is that of the surface, not of its control points, which may
+/// be far away. Empty if no face has a limit surface.
+std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::uint64_t seed);
 
 }  // namespace shaolin

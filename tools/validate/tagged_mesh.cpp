@@ -219,9 +219,7 @@ int TaggedMesh::previous_vertex(int face, int corner) const {
   return face_vertices[face][corner == 0 ? face_vertices.count(face) - 1 : corner - 1];
 }
 
-bool TaggedMesh::is_crease(int edge) const {
-  return !is_manifold(edge) || edge_sharpness[edge] >= osd_infinite;
-}
+bool TaggedMesh::is_crease(int edge) const { return !is_manifold(edge) || edge_sharpness[edge] >= osd_infinite; }
 
 Vec3 TaggedMesh::recentre(int vertex) {
   const Vec3 origin = points[vertex];
@@ -248,7 +246,8 @@ CutOut cut_neighbourhood(const TaggedMesh& mesh, int face, int rings) {
 
 namespace {
 
-/// Guards against wrong offsets in OpenSubdiv's tables, see resizeComponentTopology(): the first lists would be overwritten.
+/// Guards against wrong offsets in OpenSubdiv's tables, see resizeComponentTopology(): the first lists would be
+/// overwritten.
 bool holds_first_lists(const Far::TopologyLevel& level, const TaggedMesh& mesh) {
   const auto same = [](const auto& a, const auto& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); };
   return same(level.GetVertexEdges(0), mesh.vertex_edges[0]) && same(level.GetVertexFaces(0), mesh.vertex_faces[0]) &&
@@ -260,9 +259,11 @@ bool holds_first_lists(const Far::TopologyLevel& level, const TaggedMesh& mesh) 
 std::unique_ptr<Far::TopologyRefiner> make_refiner(const TaggedMesh& mesh, const SubdivisionRules& rules) {
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Far::TaggedFactory::Create(mesh, Far::TaggedFactory::Options(rules.scheme, rules.options)));
-  if (!refiner) throw std::runtime_error("OpenSubdiv cannot build the topology of a mesh of " +
-                                         std::to_string(mesh.face_count()) + " faces");
-  if (!holds_first_lists(refiner->GetLevel(0), mesh)) throw std::logic_error("OpenSubdiv holds another mesh than given");
+  if (!refiner)
+    throw std::runtime_error("OpenSubdiv cannot build the topology of a mesh of " + std::to_string(mesh.face_count()) +
+                             " faces");
+  if (!holds_first_lists(refiner->GetLevel(0), mesh))
+    throw std::logic_error("OpenSubdiv holds another mesh than given");
   return refiner;
 }
 
