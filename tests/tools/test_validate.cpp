@@ -75,8 +75,8 @@ TEST_CASE("validate passes on sound models", "[tools][validate]") {
   for (const std::string model : models) {
     INFO(model);
     const Folder folder;
-    const Outcome outcome = folder.run({"validate", data_file(model), "--rays", "600", "--evaluations", "500",
-                                        "--report", folder / "report.json"});
+    const Outcome outcome = folder.run(
+        {"validate", data_file(model), "--rays", "600", "--evaluations", "500", "--report", folder / "report.json"});
     INFO(outcome.text);
     CHECK(outcome.status == 0);
     const auto report = nlohmann::json::parse(read_file(folder / "report.json"));
@@ -304,9 +304,8 @@ TEST_CASE("sampled parameters lie in the domain and crowd towards corners", "[to
     for (const SurfaceParameter& at : parameters) {
       REQUIRE((at.u >= 0 && at.u <= 1 && at.v >= 0 && at.v <= 1));
       if (oracle.triangular()) REQUIRE(at.u + at.v <= 1);
-      const double distance =
-          oracle.triangular() ? 1 - std::max({1 - at.u - at.v, at.u, at.v})
-                              : std::max(std::min(at.u, 1 - at.u), std::min(at.v, 1 - at.v));
+      const double distance = oracle.triangular() ? 1 - std::max({1 - at.u - at.v, at.u, at.v})
+                                                  : std::max(std::min(at.u, 1 - at.u), std::min(at.v, 1 - at.v));
       near += distance < 1e-4;
       at_corner += distance == 0;
       hairs += distance > 0 && distance < 0.9e-8;

@@ -15,9 +15,7 @@ constexpr std::size_t most_printed = 10;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json("infinite"); }
 
-Json to_json(const SurfaceParameter& at) {
-  return {{"face", at.face}, {"sub", at.sub}, {"u", at.u}, {"v", at.v}};
-}
+Json to_json(const SurfaceParameter& at) { return {{"face", at.face}, {"sub", at.sub}, {"u", at.u}, {"v", at.v}}; }
 
 Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -175,8 +173,8 @@ void print_disagreements(const char* rows, const std::vector<Disagreement>& disa
   std::printf("\n%zu disagreements; each row replays with 'shaolin %s'\n", disagreements.size(), rows);
   for (std::size_t i = 0; i < std::min(most_printed, disagreements.size()); ++i) {
     const Disagreement& d = disagreements[i];
-    std::printf("  %s: %.3e, allowed %.0e\n    %s\n    %s\n", d.what.c_str(), d.error, d.allowed,
-                replay_row(d).c_str(), d.detail.c_str());
+    std::printf("  %s: %.3e, allowed %.0e\n    %s\n    %s\n", d.what.c_str(), d.error, d.allowed, replay_row(d).c_str(),
+                d.detail.c_str());
   }
   if (disagreements.size() > most_printed) {
     std::printf("  and %zu more; --report lists all\n", disagreements.size() - most_printed);

@@ -40,8 +40,8 @@ struct EvaluationReport {
   bool passed() const { return disagreements.empty() && median_passes() && p99_passes(); }
 };
 
-/// Every face: has it a limit surface, how many subs, and is its evaluation empty exactly where the oracle has no limit?
-/// Then every parameter, which must lie on faces with a limit surface. O(faces + parameters).
+/// Every face: has it a limit surface, how many subs, and is its evaluation empty exactly where the oracle has no
+/// limit? Then every parameter, which must lie on faces with a limit surface. O(faces + parameters).
 EvaluationReport check_evaluations(const Evaluator& ours, const Oracle& oracle,
                                    std::span<const SurfaceParameter> parameters);
 

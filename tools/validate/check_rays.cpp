@@ -78,8 +78,8 @@ void Check::ray(const ProbeRay& probe, const Answer& answer) {
   figures.hits += answer.hit.has_value();
   if (static_cast<bool>(answer.occluded) != answer.hit.has_value()) {
     ++figures.wrong_occluded;
-    disagree("occluded", probe.ray, answer.hit ? "false, intersect has " + text(*answer.hit) : "true, intersect has no hit",
-             1, 0);
+    disagree("occluded", probe.ray,
+             answer.hit ? "false, intersect has " + text(*answer.hit) : "true, intersect has no hit", 1, 0);
   }
   if (answer.hit) hit(context, *answer.hit);
   nearer(context, answer.hit, probe.target);
@@ -99,7 +99,9 @@ void Check::hit(const Context& context, const Hit& hit) {
   if (!(on_ray <= bar::on_ray) || !(on_surface <= bar::on_surface) || !in_interval) {
     ++context.figures.ghosts;
     const bool off_surface = !(on_surface <= bar::on_surface);
-    disagree(off_surface ? "ghost hit: off the surface" : in_interval ? "ghost hit: off the ray" : "ghost hit: interval",
+    disagree(off_surface   ? "ghost hit: off the surface"
+             : in_interval ? "ghost hit: off the ray"
+                           : "ghost hit: interval",
              ray, text(hit) + (expected ? ", oracle position " + exact(expected->position) : ", oracle has no surface"),
              off_surface ? on_surface : on_ray, off_surface ? bar::on_surface : bar::on_ray);
     return;

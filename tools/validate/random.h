@@ -20,9 +20,7 @@ class Random {
   /// With a uniform logarithm; both bounds are positive.
   double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
   /// In [0, count); its bias is below count * 2^-53.
-  std::size_t index(std::size_t count) {
-    return static_cast<std::size_t>(unit() * static_cast<double>(count));
-  }
+  std::size_t index(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
   bool one_in(std::size_t count) { return index(count) == 0; }
 
   Vec3 inside(const Vec3& lower, const Vec3& upper) {

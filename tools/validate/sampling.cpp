@@ -35,9 +35,15 @@ SurfaceParameter near_corner(const Piece& piece, bool triangular, double distanc
     // Barycentric: 1 - distance for the corner, the rest shared.
     const double share = distance * along, rest = distance - share;
     switch (1 - distance < 1 || distance == 0 ? random.index(3) : 0) {
-      case 0: at.u = share, at.v = rest; break;
-      case 1: at.v = share, at.u = 1 - distance; break;
-      default: at.u = share, at.v = 1 - distance; break;
+      case 0:
+        at.u = share, at.v = rest;
+        break;
+      case 1:
+        at.v = share, at.u = 1 - distance;
+        break;
+      default:
+        at.u = share, at.v = 1 - distance;
+        break;
     }
     at.v = std::min(at.v, 1 - at.u);
     return at;
@@ -52,10 +58,14 @@ SurfaceParameter near_corner(const Piece& piece, bool triangular, double distanc
 SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, Random& random) {
   const double distance = random.log_between(1e-8, 1), along = random.unit();
   switch (random.index(16)) {
-    case 0: return near_corner(piece, triangular, 0, along, random);
-    case 1: return near_corner(piece, triangular, distance, random.one_in(2) ? 0 : triangular, random);
-    case 2: return near_corner(piece, triangular, random.log_between(1e-35, 1e-8), along, random);
-    default: return near_corner(piece, triangular, distance, along, random);
+    case 0:
+      return near_corner(piece, triangular, 0, along, random);
+    case 1:
+      return near_corner(piece, triangular, distance, random.one_in(2) ? 0 : triangular, random);
+    case 2:
+      return near_corner(piece, triangular, random.log_between(1e-35, 1e-8), along, random);
+    default:
+      return near_corner(piece, triangular, distance, along, random);
   }
 }
 
@@ -114,8 +124,7 @@ ProbeRay grazing_ray(const Oracle& oracle, const Piece& piece, const Surrounding
 ProbeRay aimed_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
   const bool at_corner = random.one_in(2);
   const double side = oracle.triangular() && random.one_in(2) ? 1 : 0;
-  const SurfaceParameter at =
-      near_corner(piece, oracle.triangular(), at_corner ? 0 : random.unit(), side, random);
+  const SurfaceParameter at = near_corner(piece, oracle.triangular(), at_corner ? 0 : random.unit(), side, random);
   return ray_through(RayKind::aimed, oracle.evaluate(at)->position, random.direction(),
                      random.log_between(1e-2, 3) * model.diagonal);
 }
@@ -137,10 +146,14 @@ std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_
 
 const char* name_of(RayKind kind) {
   switch (kind) {
-    case RayKind::camera: return "camera";
-    case RayKind::incoherent: return "incoherent";
-    case RayKind::grazing: return "grazing";
-    case RayKind::aimed: break;
+    case RayKind::camera:
+      return "camera";
+    case RayKind::incoherent:
+      return "incoherent";
+    case RayKind::grazing:
+      return "grazing";
+    case RayKind::aimed:
+      break;
   }
   return "aimed";
 }

@@ -11,10 +11,10 @@
 
 namespace shaolin {
 
-/// Faces with a limit surface and their subs, each as likely; u and v uniform, but a quarter of them at distances from a
-/// random corner of the domain (in the largest of |du|, |dv|) that are log-uniform from 1 down to 1e-8. Of that quarter
-/// one in sixteen is the corner itself, one in sixteen lies on a side, and one in sixteen is from 1e-8 to 1e-35 away.
-/// Empty if no face has a limit surface.
+/// Faces with a limit surface and their subs, each as likely; u and v uniform, but a quarter of them at distances from
+/// a random corner of the domain (in the largest of |du|, |dv|) that are log-uniform from 1 down to 1e-8. Of that
+/// quarter one in sixteen is the corner itself, one in sixteen lies on a side, and one in sixteen is from 1e-8 to 1e-35
+/// away. Empty if no face has a limit surface.
 std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed);
 
 enum class RayKind {
