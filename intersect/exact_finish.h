@@ -147,8 +147,9 @@ bool ExactFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) 
   std::array<double, 16> plane, rest;
   combine(ab.x(), cell.x, ab.y(), cell.y, plane);
   combine(1, cell.z, -1, plane, rest);
-  // A ray that has found hit after hit, each a little nearer, is running along the surface: ask for more each time.
-  const double impatience = std::exp2(std::min(60, cells_ / patience));
+  // A ray that has found hit after hit, each a little nearer, is running along the surface: ask for more each time, up
+  // to a thousand times the uncertainty, some 1e-11 of the patch.
+  const double impatience = std::exp2(std::min(10, cells_ / patience));
   return Range(rest).low > best_.distance - impatience * error_ * (1 + ab.cwiseAbs().sum());
 }
 

@@ -71,7 +71,8 @@ class PatchNode {
 
  private:
   static constexpr int deepest_polynomial_split = 5;
-  /// No patch halves faster than its edges do, so none shrinks to 2^-52 of its face in fewer levels.
+  /// From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked there
+  /// must not depend on whether its children are known already.
   static constexpr int tiny_level = 24;
 
   std::unique_ptr<Children> split() const;

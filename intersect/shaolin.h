@@ -226,7 +226,7 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
     const double error = search.frame.error(node.box());
     if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;
     // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
-    if (!node.is_regular() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
+    if (node.is_tiny() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
         high.z() - low.z() <= 64 * error)
       return finish_irregular(node, hull, search);
     children = &node.children(totals_);
