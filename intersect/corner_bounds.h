@@ -1,5 +1,6 @@
 #pragma once
 /// Boxes for faces that nobody has refined yet, half as wide as their control neighbourhoods.
+#include <span>
 #include <vector>
 
 #include "../schemes/subdivision_mesh.h"
@@ -31,7 +32,7 @@ std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
   std::vector<Box> neighbours(count), face_points(count);
   std::vector<int> valence(count, 0);
   for (const int f : mesh.faces()) {
-    const std::vector<int>& v = mesh.face(f);
+    const std::span<const int> v = mesh.face(f);
     const std::size_t n = v.size();
     const Vec3 middle = face_point({mesh.points().data(), v.data(), static_cast<int>(n)});
     for (std::size_t i = 0; i < n; ++i) {

@@ -45,7 +45,7 @@ class Configuration {
 
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
   int point_count() const { return point_count_; }
-  int corner_count() const { return static_cast<int>(neighbourhood_.face.vertices.size()); }
+  int corner_count() const { return neighbourhood_.face.size(); }
   int child_count() const { return S::face_kind == FaceKind::triangle ? 4 : corner_count(); }
 
   /// Where the spline control points of a regular patch stand; empty for an irregular one.

@@ -21,7 +21,7 @@ inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* point
   for (std::size_t i = 0; i < mask.edges.size(); ++i)
     sum += mask.edges[i] * points[ring.spokes[(first + i) % ring.spokes.size()].end];
   for (std::size_t i = 0; i < mask.diagonals.size(); ++i)
-    sum += mask.diagonals[i] * points[ring.faces[(first + i) % ring.faces.size()].vertices[2]];
+    sum += mask.diagonals[i] * points[ring.faces[(first + i) % ring.faces.size()].vertex(2)];
   return sum;
 }
 
@@ -33,7 +33,7 @@ LimitAtCorner smooth_limit(const Ring& ring, const Vec3* points) {
   const LimitMask mask = S::smooth_limit(n);
   Vec3 position = mask.vertex * points[ring.vertex] + mask.edge * symmetric_sum({points, ends.data(), n});
   if (mask.diagonal != 0) {
-    for (const FaceSides& face : ring.faces) diagonals.push_back(face.vertices[2]);
+    for (const FaceSides& face : ring.faces) diagonals.push_back(face.vertex(2));
     position += mask.diagonal * symmetric_sum({points, diagonals.data(), n});
   }
   const Vec3 cosine = tangent(S::smooth_tangent(n, 0), ring, points, 0);
@@ -72,9 +72,9 @@ std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Ring& ring = n.rings[static_cast<std::size_t>(k)];
   const std::vector<float> sharpness = ring.spoke_sharpness();
   if (is_semi_sharp(ring.sharpness) || std::any_of(sharpness.begin(), sharpness.end(), is_semi_sharp)) return {};
-  constexpr std::size_t own_size = S::face_kind == FaceKind::triangle ? 3 : 4;
+  constexpr int own_size = S::face_kind == FaceKind::triangle ? 3 : 4;
   for (const FaceSides& face : ring.faces)
-    if (face.vertices.size() != own_size) return {};
+    if (face.size() != own_size) return {};
 
   const Vec3* points = patch.points.data();
   switch (vertex_rule(ring.sharpness, sharpness)) {

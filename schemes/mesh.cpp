@@ -10,14 +10,12 @@
 namespace shaolin {
 
 Mesh::Mesh(const ManifoldMesh& topology, std::vector<Vec3> points)
-    : points_(std::move(points)), vertex_sharpness_(topology.vertex_sharpness), has_limit_(topology.has_limit) {
-  const std::size_t face_count = topology.face_offsets.size() - 1;
-  faces_.reserve(face_count);
+    : points_(std::move(points)),
+      face_offsets_(topology.face_offsets),
+      face_vertices_(topology.face_vertices),
+      vertex_sharpness_(topology.vertex_sharpness),
+      has_limit_(topology.has_limit) {
   corner_at_.assign(points_.size(), {-1, 0});
-  for (std::size_t f = 0; f < face_count; ++f) {
-    faces_.emplace_back(topology.face_vertices.begin() + topology.face_offsets[f],
-                        topology.face_vertices.begin() + topology.face_offsets[f + 1]);
-  }
   build_half_edges();
   number_sides();
   edge_sharpness_.resize(connectivity_.n_edges());
@@ -29,25 +27,22 @@ Mesh::Mesh(const ManifoldMesh& topology, std::vector<Vec3> points)
 
 /// The kernel gets every face with repeated vertices taken together; a face with fewer than three left is cut out.
 void Mesh::build_half_edges() {
-  std::size_t sides = 0;
-  for (const std::vector<int>& face : faces_) sides += face.size();
-  connectivity_.reserve(points_.size(), sides, faces_.size());
+  connectivity_.reserve(points_.size(), face_vertices_.size(), has_limit_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) connectivity_.new_vertex();
-  kernel_face_.assign(faces_.size(), -1);
+  kernel_face_.assign(has_limit_.size(), -1);
   std::vector<OpenMesh::VertexHandle> handles;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
+  for (const int f : faces()) {
     handles.clear();
-    const std::vector<int>& v = faces_[f];
+    const std::span<const int> v = face(f);
     for (std::size_t i = 0; i < v.size(); ++i)
       if (v[i] != v[(i + 1) % v.size()]) handles.emplace_back(v[i]);
     if (handles.size() < 3) continue;
     const OpenMesh::FaceHandle handle = connectivity_.add_face(handles.data(), handles.size());
     if (!handle.is_valid())
       throw InputError("face " + std::to_string(f) + " does not fit its neighbours in the half-edge mesh");
-    kernel_face_[f] = handle.idx();
-    input_face_.push_back(static_cast<int>(f));
-    for (std::size_t i = 0; i < v.size(); ++i)
-      corner_at_[static_cast<std::size_t>(v[i])] = {static_cast<int>(f), static_cast<int>(i)};
+    kernel_face_[static_cast<std::size_t>(f)] = handle.idx();
+    input_face_.push_back(f);
+    for (std::size_t i = 0; i < v.size(); ++i) corner_at_[static_cast<std::size_t>(v[i])] = {f, static_cast<int>(i)};
   }
 }
 
@@ -58,21 +53,23 @@ Mesh::Edge Mesh::edge(int edge) const {
 }
 
 void Mesh::number_sides() {
-  sides_.resize(faces_.size());
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const std::vector<int>& v = faces_[f];
-    if (kernel_face_[f] < 0) continue;
-    HalfEdge half = connectivity_.halfedge_handle(OpenMesh::FaceHandle(kernel_face_[f]));
+  face_sides_.resize(face_vertices_.size());
+  place_of_half_edge_.resize(connectivity_.n_halfedges());
+  for (const int f : faces()) {
+    if (!is_held(f)) continue;
+    const std::span<const int> v = face(f);
+    HalfEdge half = connectivity_.halfedge_handle(OpenMesh::FaceHandle(kernel_face_[static_cast<std::size_t>(f)]));
     std::size_t place = 0;
     while (v[place] != connectivity_.from_vertex_handle(half).idx() ||
            v[(place + 1) % v.size()] != connectivity_.to_vertex_handle(half).idx())
       ++place;
-    sides_[f].resize(v.size());
     for (std::size_t i = 0; i < v.size(); ++i, place = (place + 1) % v.size()) {
+      int& side = face_sides_[static_cast<std::size_t>(first_corner(f)) + place];
       if (v[place] == v[(place + 1) % v.size()]) {
-        sides_[f][place] = edge_count() + degenerate_side_count_++;
+        side = edge_count() + degenerate_side_count_++;
       } else {
-        sides_[f][place] = connectivity_.edge_handle(half).idx();
+        side = connectivity_.edge_handle(half).idx();
+        place_of_half_edge_[static_cast<std::size_t>(half.idx())] = static_cast<int>(place);
         half = connectivity_.next_halfedge_handle(half);
       }
     }
@@ -81,7 +78,7 @@ void Mesh::number_sides() {
 
 /// The half-edge that leaves a corner along its side.
 Mesh::HalfEdge Mesh::half_edge(Corner corner) const {
-  const OpenMesh::VertexHandle from(face(corner.face)[static_cast<std::size_t>(corner.place)]);
+  const OpenMesh::VertexHandle from(vertex_at(corner));
   const HalfEdge half = connectivity_.halfedge_handle(OpenMesh::EdgeHandle(side(corner)), 0);
   return connectivity_.from_vertex_handle(half) == from ? half : connectivity_.opposite_halfedge_handle(half);
 }
@@ -92,35 +89,22 @@ Mesh::Corner Mesh::corner_of(HalfEdge half_edge, int vertex) const {
   const OpenMesh::FaceHandle handle = connectivity_.face_handle(half_edge);
   if (!handle.is_valid()) return {-1, 0};
   const int face_number = input_face_[static_cast<std::size_t>(handle.idx())];
-  const std::vector<int>& sides = sides_[static_cast<std::size_t>(face_number)];
-  const auto at = std::find(sides.begin(), sides.end(), connectivity_.edge_handle(half_edge).idx());
-  assert(at != sides.end());
-  const int place = static_cast<int>(at - sides.begin());
+  const int place = place_of_half_edge_[static_cast<std::size_t>(half_edge.idx())];
   const bool leaves = connectivity_.from_vertex_handle(half_edge).idx() == vertex;
-  return {face_number, leaves ? place : (place + 1) % static_cast<int>(sides.size())};
+  return {face_number, leaves ? place : (place + 1) % face_size(face_number)};
 }
 
 /// Across the side that leaves the corner; face -1 at a boundary or a side between equal vertices.
 Mesh::Corner Mesh::next_clockwise(Corner corner) const {
   if (repeats_next(corner)) return {-1, 0};
-  const int vertex = face(corner.face)[static_cast<std::size_t>(corner.place)];
-  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(corner)), vertex);
+  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(corner)), vertex_at(corner));
 }
 
 /// Across the side that enters the corner.
 Mesh::Corner Mesh::next_counter_clockwise(Corner corner) const {
-  const std::vector<int>& v = face(corner.face);
-  const int size = static_cast<int>(v.size());
-  const Corner last{corner.face, (corner.place + size - 1) % size};
+  const Corner last = previous(corner);
   if (repeats_next(last)) return {-1, 0};
-  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(last)), v[static_cast<std::size_t>(corner.place)]);
-}
-
-FaceSides Mesh::face_from(Corner corner) const {
-  FaceSides result{corner.face, face(corner.face), sides_[static_cast<std::size_t>(corner.face)]};
-  std::rotate(result.vertices.begin(), result.vertices.begin() + corner.place, result.vertices.end());
-  std::rotate(result.sides.begin(), result.sides.begin() + corner.place, result.sides.end());
-  return result;
+  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(last)), vertex_at(corner));
 }
 
 float Mesh::sharpness_of_side(Corner corner) const {
@@ -136,17 +120,16 @@ Ring Mesh::ring(Corner corner) const {
   }
 
   Ring ring;
-  ring.vertex = face(corner.face)[static_cast<std::size_t>(corner.place)];
+  ring.vertex = vertex_at(corner);
   ring.sharpness = vertex_sharpness(ring.vertex);
   ring.closed = false;
   for (Corner at = first; at.face >= 0;) {
     ring.faces.push_back(face_from(at));
-    ring.spokes.push_back({ring.faces.back().vertices[1], ring.faces.back().sides[0], sharpness_of_side(at)});
+    ring.spokes.push_back({ring.faces.back().vertex(1), side(at), sharpness_of_side(at)});
     const Corner after = next_counter_clockwise(at);
     if (after.face < 0) {
-      const int size = static_cast<int>(face(at.face).size());
-      const Corner last{at.face, (at.place + size - 1) % size};
-      ring.spokes.push_back({ring.faces.back().vertices.back(), side(last), sharpness_of_side(last)});
+      const Corner last = previous(at);
+      ring.spokes.push_back({vertex_at(last), side(last), sharpness_of_side(last)});
     }
     ring.closed = after.face >= 0 && is(after, first);
     if (ring.closed) break;
@@ -155,21 +138,26 @@ Ring Mesh::ring(Corner corner) const {
   return ring;
 }
 
-Neighbourhood Mesh::neighbourhood(int face_number, int radius) const {
-  Neighbourhood result{{face_number, face(face_number), sides_[static_cast<std::size_t>(face_number)]}, {}};
+Neighbourhood Mesh::neighbourhood(Corner first, int radius) const {
+  Neighbourhood result;
+  result.face = face_from(first);
   std::vector<Corner> inner;
-  std::vector<int> seen = result.face.vertices;
-  for (int i = 0; i < static_cast<int>(result.face.vertices.size()); ++i) inner.push_back({face_number, i});
+  std::vector<int> seen;
+  const int size = result.face.size();
+  for (int i = 0; i < size; ++i) {
+    inner.push_back({first.face, (first.place + i) % size});
+    seen.push_back(result.face.vertex(i));
+  }
   for (std::size_t done = 0; radius > 0; --radius) {
     const std::size_t end = inner.size();
     for (; done < end; ++done) {
       result.rings.push_back(ring(inner[done]));
       if (radius == 1) continue;
       for (const FaceSides& f : result.rings.back().faces)
-        for (const int v : f.vertices) {
-          if (std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
-          seen.push_back(v);
-          inner.push_back(corner_at(v));
+        for (int i = 0; i < f.size(); ++i) {
+          if (std::find(seen.begin(), seen.end(), f.vertex(i)) != seen.end()) continue;
+          seen.push_back(f.vertex(i));
+          inner.push_back(corner_at(f.vertex(i)));
         }
     }
   }
@@ -178,8 +166,8 @@ Neighbourhood Mesh::neighbourhood(int face_number, int radius) const {
 
 TriangleMesh::TriangleMesh(const ManifoldMesh& topology, std::vector<Vec3> points) : Mesh(topology, std::move(points)) {
   for (const int f : faces())
-    if (face(f).size() != 3)
-      throw InputError("face " + std::to_string(f) + " has " + std::to_string(face(f).size()) +
+    if (face_size(f) != 3)
+      throw InputError("face " + std::to_string(f) + " has " + std::to_string(face_size(f)) +
                        " corners; Loop subdivision expects triangles only");
 }
 

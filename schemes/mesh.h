@@ -2,6 +2,7 @@
 /// The mesh hierarchy of Mueller et al. 2003, section 5: an abstract mesh with its navigation; triangle and quad
 /// meshes; subdivision meshes (subdivision_mesh.h) derive from those. OpenMesh holds the half-edges.
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+#include <span>
 #include <vector>
 
 #include "manifold.h"
@@ -39,7 +40,7 @@ class Mesh {
 
   int vertex_count() const { return static_cast<int>(points_.size()); }
   int edge_count() const { return static_cast<int>(connectivity_.n_edges()); }
-  int face_count() const { return static_cast<int>(faces_.size()); }
+  int face_count() const { return static_cast<int>(has_limit_.size()); }
 
   IndexRange vertices() const { return {vertex_count()}; }
   IndexRange edges() const { return {edge_count()}; }
@@ -57,7 +58,10 @@ class Mesh {
   Edge edge(int edge) const;
 
   /// A face's vertices in order (with the input's repeats).
-  const std::vector<int>& face(int face) const { return faces_[static_cast<std::size_t>(face)]; }
+  std::span<const int> face(int face) const {
+    return {face_vertices_.data() + first_corner(face), static_cast<std::size_t>(face_size(face))};
+  }
+  int face_size(int face) const { return first_corner(face + 1) - first_corner(face); }
 
   /// False for a face without three distinct vertices in a row: the half-edges leave it out, and so does refinement.
   bool is_held(int face) const { return kernel_face_[static_cast<std::size_t>(face)] >= 0; }
@@ -75,8 +79,9 @@ class Mesh {
   /// The ring of the vertex at a corner. It starts at the boundary if there is one. O(valence).
   Ring ring(Corner corner) const;
 
-  /// A face with the rings of the vertices within radius - 1 faces of it. O(sum of the rings).
-  Neighbourhood neighbourhood(int face, int radius) const;
+  /// A face, seen from one of its corners, with the rings of the vertices within radius - 1 faces of it. The mesh must
+  /// outlive it. O(sum of the rings).
+  Neighbourhood neighbourhood(Corner corner, int radius) const;
 
  protected:
   using HalfEdge = OpenMesh::HalfedgeHandle;
@@ -88,26 +93,37 @@ class Mesh {
   int degenerate_side(Corner corner) const { return repeats_next(corner) ? side(corner) - edge_count() : -1; }
   int degenerate_side_count() const { return degenerate_side_count_; }
   const OpenMesh::PolyConnectivity& connectivity() const { return connectivity_; }
-  int side(Corner corner) const {
-    return sides_[static_cast<std::size_t>(corner.face)][static_cast<std::size_t>(corner.place)];
-  }
+  int side(Corner corner) const { return face_sides_[index(corner)]; }
   int input_face(OpenMesh::FaceHandle face) const { return input_face_[static_cast<std::size_t>(face.idx())]; }
 
  private:
   void build_half_edges();
   void number_sides();
   HalfEdge half_edge(Corner corner) const;
+  int first_corner(int face) const { return face_offsets_[static_cast<std::size_t>(face)]; }
+  std::size_t index(Corner corner) const { return static_cast<std::size_t>(first_corner(corner.face) + corner.place); }
+  int vertex_at(Corner corner) const { return face_vertices_[index(corner)]; }
+  /// The corner before this one in its face.
+  Corner previous(Corner corner) const {
+    return {corner.face, (corner.place == 0 ? face_size(corner.face) : corner.place) - 1};
+  }
   bool repeats_next(Corner corner) const { return side(corner) >= edge_count(); }
   Corner next_clockwise(Corner corner) const;
   Corner next_counter_clockwise(Corner corner) const;
-  FaceSides face_from(Corner corner) const;
+  /// The face seen from the corner.
+  FaceSides face_from(Corner corner) const {
+    const auto first = static_cast<std::size_t>(first_corner(corner.face));
+    return FaceSides(corner.face, &face_vertices_[first], &face_sides_[first], face_size(corner.face))
+        .turned(corner.place);
+  }
   float sharpness_of_side(Corner corner) const;
   Corner corner_of(HalfEdge half_edge, int vertex) const;
 
   OpenMesh::PolyConnectivity connectivity_;
   std::vector<Vec3> points_;
-  std::vector<std::vector<int>> faces_,
-      sides_;                                  ///< per face: vertices, and edges (edge_count() on: between equal ones)
+  std::vector<int> face_offsets_, face_vertices_;
+  std::vector<int> face_sides_;                ///< edges; from edge_count() on sides between equal vertices
+  std::vector<int> place_of_half_edge_;        ///< in its face
   std::vector<int> kernel_face_, input_face_;  ///< input face <-> half-edge face; -1 where the kernel has none
   std::vector<float> vertex_sharpness_, edge_sharpness_;
   std::vector<char> has_limit_;

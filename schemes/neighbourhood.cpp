@@ -12,22 +12,11 @@ namespace shaolin {
 
 namespace {
 
-std::vector<int> turned(const std::vector<int>& values, std::size_t at) {
-  std::vector<int> result(values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  result.insert(result.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at));
-  return result;
-}
-
-/// The face, turned to begin at place `at`.
-void turn(FaceSides& face, std::size_t at) {
-  face.vertices = turned(face.vertices, at);
-  face.sides = turned(face.sides, at);
-}
-
-/// The face, turned to begin at the vertex `first`.
-void turn_to_vertex(FaceSides& face, int first) {
-  const auto at = std::find(face.vertices.begin(), face.vertices.end(), first);
-  turn(face, static_cast<std::size_t>(at - face.vertices.begin()));
+/// The face, seen from the vertex `first`.
+FaceSides seen_from_vertex(const FaceSides& face, int first) {
+  int at = 0;
+  while (face.vertex(at) != first) ++at;
+  return face.turned(at);
 }
 
 /// The ring's sector from spoke `first` over `faces` faces, open.
@@ -62,29 +51,32 @@ int place_of_face(const Neighbourhood& neighbourhood, std::size_t k) {
   const Ring& ring = neighbourhood.rings[k];
   const FaceSides& face = neighbourhood.face;
   for (std::size_t i = 0; i < ring.faces.size(); ++i)
-    if (ring.faces[i].id == face.id && ring.faces[i].sides[0] == face.sides[k]) return static_cast<int>(i);
+    if (ring.faces[i].id() == face.id() && ring.faces[i].side(0) == face.side(static_cast<int>(k)))
+      return static_cast<int>(i);
   assert(false && "a corner's ring holds the corner's face");
   return 0;
 }
 
 void drop_beyond_creases(Neighbourhood& neighbourhood) {
-  const std::vector<int>& corners = neighbourhood.face.vertices;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
+  const FaceSides& face = neighbourhood.face;
+  std::unordered_map<int, int> repeats;
+  for (int k = 0; k < face.size(); ++k) ++repeats[face.vertex(k)];
+  for (int k = 0; k < face.size(); ++k) {
     // A vertex that the face repeats has one ring for all its corners, so that their children share their rings.
-    if (std::count(corners.begin(), corners.end(), corners[k]) > 1) continue;
-    Ring& ring = neighbourhood.rings[k];
+    if (repeats[face.vertex(k)] > 1) continue;
+    Ring& ring = neighbourhood.rings[static_cast<std::size_t>(k)];
     const std::vector<float> sharpness = ring.spoke_sharpness();
     if (std::any_of(sharpness.begin(), sharpness.end(), is_semi_sharp)) continue;
     const auto infinite = std::count_if(sharpness.begin(), sharpness.end(), is_infinite);
     if (infinite < 2) continue;
-    const int place = place_of_face(neighbourhood, k);
+    const int place = place_of_face(neighbourhood, static_cast<std::size_t>(k));
     ring = sector_of_face(ring, place);
     if (infinite > 2) ring.sharpness = infinite_sharpness;
   }
 }
 
 void turn_to_face(Neighbourhood& neighbourhood) {
-  for (std::size_t k = 0; k < neighbourhood.face.vertices.size(); ++k) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(neighbourhood.face.size()); ++k) {
     Ring& ring = neighbourhood.rings[k];
     if (!ring.closed) continue;
     const int place = place_of_face(neighbourhood, k);
@@ -95,7 +87,7 @@ void turn_to_face(Neighbourhood& neighbourhood) {
 
 CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
   CanonicalForm result;
-  std::unordered_map<int, int> vertex_numbers, edge_numbers, face_numbers;
+  std::unordered_map<int, int> vertex_numbers, edge_numbers;
   const auto number_of = [&](int vertex) {
     const auto [at, is_new] = vertex_numbers.try_emplace(vertex, static_cast<int>(result.vertices.size()));
     if (is_new) result.vertices.push_back(vertex);
@@ -104,15 +96,30 @@ CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
   const auto edge_number = [&](int edge) {
     return edge_numbers.try_emplace(edge, static_cast<int>(edge_numbers.size())).first->second;
   };
+
+  struct Copied {
+    FaceSides original, copy;
+  };
+  std::unordered_map<int, Copied> copied;
   const auto renumbered = [&](const FaceSides& face) {
-    FaceSides copy{face_numbers.try_emplace(face.id, static_cast<int>(face_numbers.size())).first->second, {}, {}};
-    for (const int vertex : face.vertices) copy.vertices.push_back(number_of(vertex));
-    for (const int edge : face.sides) copy.sides.push_back(edge_number(edge));
-    result.key.push_back(copy.id);
-    result.key.push_back(static_cast<int>(copy.vertices.size()));
-    result.key.insert(result.key.end(), copy.vertices.begin(), copy.vertices.end());
-    result.key.insert(result.key.end(), copy.sides.begin(), copy.sides.end());
-    return copy;
+    const auto [at, is_new] = copied.try_emplace(face.id());
+    Copied& known = at->second;
+    if (!is_new) {
+      const int turn = known.original.turn_to(face);
+      result.key.insert(result.key.end(), {known.copy.id(), turn});
+      return known.copy.turned(turn);
+    }
+    const int id = static_cast<int>(copied.size()) - 1, size = face.size();
+    std::vector<int> vertices, sides;
+    for (int i = 0; i < size; ++i) vertices.push_back(number_of(face.vertex(i)));
+    for (int i = 0; i < size; ++i) sides.push_back(edge_number(face.side(i)));
+    result.key.insert(result.key.end(), {id, size});
+    result.key.insert(result.key.end(), vertices.begin(), vertices.end());
+    result.key.insert(result.key.end(), sides.begin(), sides.end());
+    known = {face, FaceSides(id, vertices.data(), sides.data(), size)};
+    result.neighbourhood.lists.push_back(std::move(vertices));
+    result.neighbourhood.lists.push_back(std::move(sides));
+    return known.copy;
   };
   const auto add_sharpness = [&](float value) { result.key.push_back(std::bit_cast<int>(value)); };
 
@@ -137,13 +144,11 @@ CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
 Refinement::Refinement(const Neighbourhood& parent, FaceKind kind) : parent_(parent), kind_(kind) {
   for (const Ring& ring : parent.rings) {
     rings_.try_emplace(ring.vertex, &ring);
-    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id, &face);
+    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id(), face);
   }
 }
 
-int Refinement::child_count() const {
-  return kind_ == FaceKind::triangle ? 4 : static_cast<int>(parent_.face.vertices.size());
-}
+int Refinement::child_count() const { return kind_ == FaceKind::triangle ? 4 : parent_.face.size(); }
 
 int Refinement::vertex(const RefinedVertex& from) {
   const auto [at, is_new] = numbers_.try_emplace(from, static_cast<int>(vertices_.size()));
@@ -151,57 +156,64 @@ int Refinement::vertex(const RefinedVertex& from) {
   return at->second;
 }
 
-/// The child of `parent` at its corner in place `at`, turned to begin at the refined vertex `first`.
-FaceSides Refinement::corner_face(const FaceSides& parent, std::size_t at, int first) {
-  const std::size_t size = parent.vertices.size(), last = (at + size - 1) % size;
-  const int corner = parent.vertices[at], leaving = parent.sides[at], entering = parent.sides[last];
-  FaceSides child{named(face_ids_, {0, parent.id, leaving}), {from_vertex(corner), from_edge(leaving)}, {}};
-  child.sides.push_back(half(leaving, corner));
-  if (kind_ == FaceKind::quad) {
-    child.vertices.push_back(from_face(parent.id));
-    child.sides.push_back(inner(parent.id, leaving));
-    child.sides.push_back(inner(parent.id, entering));
-  } else {
-    child.sides.push_back(inner(parent.id, parent.sides[(at + 1) % 3]));
+/// The next level's face of that identifier; its lists are kept once.
+FaceSides Refinement::made(int id, std::initializer_list<int> vertices, std::initializer_list<int> sides) {
+  const auto [at, is_new] = children_.try_emplace(id);
+  if (is_new) {
+    std::array<int, 8>& lists = lists_.emplace_back();
+    std::copy(vertices.begin(), vertices.end(), lists.begin());
+    std::copy(sides.begin(), sides.end(), lists.begin() + 4);
+    at->second = FaceSides(id, lists.data(), lists.data() + 4, static_cast<int>(vertices.size()));
   }
-  child.vertices.push_back(from_edge(entering));
-  child.sides.push_back(half(entering, corner));
-  turn_to_vertex(child, first);
-  return child;
+  return at->second;
 }
 
-/// The middle child of a triangle, turned to begin at the refined vertex `first`. The edge between the midpoints of two
-/// sides runs along the third.
+/// The child of `parent` at its corner in place `at`, seen from the refined vertex `first`.
+FaceSides Refinement::corner_face(const FaceSides& parent, int at, int first) {
+  const int size = parent.size(), leaving = parent.side(at), entering = parent.side((at + size - 1) % size);
+  const int corner = parent.vertex(at);
+  const int id = named(face_ids_, {0, parent.id(), leaving});
+  const auto child = [&] {
+    if (kind_ == FaceKind::quad)
+      return made(
+          id, {from_vertex(corner), from_edge(leaving), from_face(parent.id()), from_edge(entering)},
+          {half(leaving, corner), inner(parent.id(), leaving), inner(parent.id(), entering), half(entering, corner)});
+    return made(id, {from_vertex(corner), from_edge(leaving), from_edge(entering)},
+                {half(leaving, corner), inner(parent.id(), parent.side((at + 1) % 3)), half(entering, corner)});
+  };
+  return seen_from_vertex(child(), first);
+}
+
+/// The middle child of a triangle, seen from the refined vertex `first`. The edge between the midpoints of two sides
+/// runs along the third.
 FaceSides Refinement::middle_face(const FaceSides& parent, int first) {
-  const std::vector<int>& s = parent.sides;
-  FaceSides child{named(face_ids_, {1, parent.id, 0}),
-                  {from_edge(s[1]), from_edge(s[2]), from_edge(s[0])},
-                  {inner(parent.id, s[0]), inner(parent.id, s[1]), inner(parent.id, s[2])}};
-  turn_to_vertex(child, first);
-  return child;
+  const int id = parent.id(), a = parent.side(0), b = parent.side(1), c = parent.side(2);
+  const FaceSides child = made(named(face_ids_, {1, id, 0}), {from_edge(b), from_edge(c), from_edge(a)},
+                               {inner(id, a), inner(id, b), inner(id, c)});
+  return seen_from_vertex(child, first);
 }
 
 FaceSides Refinement::child_face(int k) {
   const FaceSides& face = parent_.face;
-  if (kind_ == FaceKind::triangle && k == 3) return middle_face(face, from_edge(face.sides[1]));
-  const auto at = static_cast<std::size_t>(k);
-  const bool keeps_orientation = kind_ == FaceKind::triangle || face.vertices.size() == 4;
-  FaceSides child = corner_face(face, at, from_vertex(face.vertices[at]));
-  if (keeps_orientation) turn(child, (child.vertices.size() - at) % child.vertices.size());
-  return child;
+  if (kind_ == FaceKind::triangle && k == 3) return middle_face(face, from_edge(face.side(1)));
+  const bool keeps_orientation = kind_ == FaceKind::triangle || face.size() == 4;
+  const FaceSides child = corner_face(face, k, from_vertex(face.vertex(k)));
+  return keeps_orientation ? child.turned((child.size() - k) % child.size()) : child;
 }
 
 Neighbourhood Refinement::child(int k, int radius) {
   Neighbourhood result;
   result.face = child_face(k);
-  std::vector<int> inner = result.face.vertices;
+  std::vector<int> inner;
+  for (int i = 0; i < result.face.size(); ++i) inner.push_back(result.face.vertex(i));
   for (std::size_t done = 0; radius > 0; --radius) {
     const std::size_t end = inner.size();
     for (; done < end; ++done) {
       result.rings.push_back(ring(inner[done]));
+      if (radius == 1) continue;
       for (const FaceSides& face : result.rings.back().faces)
-        for (const int v : face.vertices)
-          if (radius > 1 && std::find(inner.begin(), inner.end(), v) == inner.end()) inner.push_back(v);
+        for (int i = 0; i < face.size(); ++i)
+          if (std::find(inner.begin(), inner.end(), face.vertex(i)) == inner.end()) inner.push_back(face.vertex(i));
     }
   }
   return result;
@@ -215,7 +227,7 @@ Ring Refinement::ring(int refined) {
     case RefinedVertex::Kind::edge:
       return ring_of_edge(from.id);
     default:
-      return ring_of_face(*faces_.at(from.id));
+      return ring_of_face(faces_.at(from.id));
   }
 }
 
@@ -241,7 +253,7 @@ Refinement::Place Refinement::place_of_edge(int edge) const {
                i > 0         ? &ring.faces[i - 1]
                : ring.closed ? &ring.faces.back()
                              : nullptr};
-      const auto is_face = [&](const FaceSides* side) { return side && side->id == parent_.face.id; };
+      const auto is_face = [&](const FaceSides* side) { return side && side->id() == parent_.face.id(); };
       if (is_face(place.left) || is_face(place.right)) return place;
     }
   }
@@ -255,9 +267,9 @@ Ring Refinement::ring_of_edge(int edge) {
   const Ring::Spoke& spoke = place.ring->spokes[place.spoke];
   const int a = place.ring->vertex, b = spoke.end;
   if (is_infinite(spoke.sharpness)) {
-    if (place.left && place.left->id == parent_.face.id) {
+    if (place.left && place.left->id() == parent_.face.id()) {
       place.right = nullptr;
-    } else if (place.right && place.right->id == parent_.face.id) {
+    } else if (place.right && place.right->id() == parent_.face.id()) {
       place.left = nullptr;
     }
   }
@@ -276,7 +288,7 @@ Ring Refinement::ring_of_edge(int edge) {
   }
   if (place.right) {
     result.spokes.push_back(towards_a);
-    add_side(result, *place.right, place.right->vertices.size() - 1);
+    add_side(result, *place.right, place.right->size() - 1);
     if (!place.left) result.spokes.push_back(towards_b);
   }
   return result;
@@ -284,26 +296,26 @@ Ring Refinement::ring_of_edge(int edge) {
 
 /// The faces and inner spokes on the side of `face`, whose side in place `at` carries the ring's vertex: from the half
 /// towards the side's second vertex around to the half towards its first.
-void Refinement::add_side(Ring& ring, const FaceSides& face, std::size_t at) {
-  const std::size_t size = face.vertices.size(), second = (at + 1) % size;
+void Refinement::add_side(Ring& ring, const FaceSides& face, int at) {
+  const int second = (at + 1) % face.size();
   ring.faces.push_back(corner_face(face, second, ring.vertex));
   if (kind_ == FaceKind::triangle) {
-    const int after = face.sides[second], before = face.sides[(at + 2) % 3];
-    ring.spokes.push_back({from_edge(after), inner(face.id, before), 0});
+    const int after = face.side(second), before = face.side((at + 2) % 3);
+    ring.spokes.push_back({from_edge(after), inner(face.id(), before), 0});
     ring.faces.push_back(middle_face(face, ring.vertex));
-    ring.spokes.push_back({from_edge(before), inner(face.id, after), 0});
+    ring.spokes.push_back({from_edge(before), inner(face.id(), after), 0});
   } else {
-    ring.spokes.push_back({from_face(face.id), inner(face.id, face.sides[at]), 0});
+    ring.spokes.push_back({from_face(face.id()), inner(face.id(), face.side(at)), 0});
   }
   ring.faces.push_back(corner_face(face, at, ring.vertex));
 }
 
 Ring Refinement::ring_of_face(const FaceSides& face) {
   Ring result;
-  result.vertex = from_face(face.id);
-  for (std::size_t k = 0; k < face.vertices.size(); ++k) {
-    result.spokes.push_back({from_edge(face.sides[k]), inner(face.id, face.sides[k]), 0});
-    result.faces.push_back(corner_face(face, (k + 1) % face.vertices.size(), result.vertex));
+  result.vertex = from_face(face.id());
+  for (int k = 0; k < face.size(); ++k) {
+    result.spokes.push_back({from_edge(face.side(k)), inner(face.id(), face.side(k)), 0});
+    result.faces.push_back(corner_face(face, (k + 1) % face.size(), result.vertex));
   }
   return result;
 }

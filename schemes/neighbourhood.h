@@ -1,7 +1,9 @@
 #pragma once
 /// Operations on the topology around a face: its reduction to what matters, and its refinement.
+#include <array>
+#include <deque>
+#include <initializer_list>
 #include <map>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -47,7 +49,8 @@ class Refinement {
   int child_count() const;
 
   /// The neighbourhood of child k, for patches of the given radius, with vertices named by index into vertices().
-  /// Children keep the face's orientation (see Domain); child k of an n-gon begins at the n-gon's corner k.
+  /// Children keep the face's orientation (see Domain); child k of an n-gon begins at the n-gon's corner k. The
+  /// refinement must outlive the neighbourhood, whose faces look into it.
   Neighbourhood child(int k, int radius);
 
   const std::vector<RefinedVertex>& vertices() const { return vertices_; }
@@ -68,8 +71,9 @@ class Refinement {
   }
 
   FaceSides child_face(int k);
-  FaceSides corner_face(const FaceSides& parent, std::size_t at, int first);
+  FaceSides corner_face(const FaceSides& parent, int at, int first);
   FaceSides middle_face(const FaceSides& parent, int first);
+  FaceSides made(int id, std::initializer_list<int> vertices, std::initializer_list<int> sides);
 
   /// An edge as a spoke of a ring.
   struct Place {
@@ -83,15 +87,17 @@ class Refinement {
   Ring ring_of_vertex(int v);
   Ring ring_of_edge(int edge);
   Ring ring_of_face(const FaceSides& face);
-  void add_side(Ring& ring, const FaceSides& face, std::size_t at);
+  void add_side(Ring& ring, const FaceSides& face, int at);
 
   const Neighbourhood& parent_;
   FaceKind kind_;
   std::map<int, const Ring*> rings_;
-  std::map<int, const FaceSides*> faces_;
+  std::map<int, FaceSides> faces_;
   std::map<RefinedVertex, int> numbers_;
   std::vector<RefinedVertex> vertices_;
   Names edge_ids_, face_ids_;
+  std::map<int, FaceSides> children_;     ///< the next level's faces by identifier
+  std::deque<std::array<int, 8>> lists_;  ///< that they look at
 };
 
 }  // namespace shaolin

@@ -23,9 +23,9 @@ bool smooth_inside(const Ring& ring) {
          std::none_of(ring.spokes.begin() + 1, ring.spokes.end() - 1, sharp);
 }
 
-bool all_faces_have(const Ring& ring, std::size_t corners) {
+bool all_faces_have(const Ring& ring, int corners) {
   return std::all_of(ring.faces.begin(), ring.faces.end(),
-                     [&](const FaceSides& face) { return face.vertices.size() == corners; });
+                     [&](const FaceSides& face) { return face.size() == corners; });
 }
 
 /// A corner as its patch sees it: the ring, and the place of the patch's face in it.
@@ -37,7 +37,7 @@ struct Corner {
   /// Spokes counted counter-clockwise from the face's outgoing edge; the ring must have that spoke.
   int spoke(std::size_t i) const { return ring.spokes[(place + i) % ring.spokes.size()].end; }
   /// The vertex diagonally across the i-th quad from the patch's own.
-  int diagonal(std::size_t i) const { return ring.faces[(place + i) % ring.faces.size()].vertices[2]; }
+  int diagonal(std::size_t i) const { return ring.faces[(place + i) % ring.faces.size()].vertex(2); }
 };
 
 Corner corner_of(const Neighbourhood& n, std::size_t k) {
@@ -72,7 +72,7 @@ std::array<SplinePoint, 5> outer_block(const Corner& corner) {
     const int left = corner.spoke(2), upper_left = corner.diagonal(1);
     return {point(upper_left), point(left), beyond(left, upper_left), beyond(c, last), beyond(next, opposite)};
   }
-  const int below = corner.ring.spokes[0].end, lower_right = corner.ring.faces[0].vertices[2];
+  const int below = corner.ring.spokes[0].end, lower_right = corner.ring.faces[0].vertex(2);
   return {beyond(last, opposite), beyond(c, next), beyond(below, lower_right), point(below), point(lower_right)};
 }
 
@@ -96,7 +96,7 @@ std::array<SplinePoint, 6> six_neighbours(const Corner& corner) {
 
 template <>
 std::optional<std::array<SplinePoint, 16>> regular_layout<BezierQuad>(const Neighbourhood& n) {
-  if (n.face.vertices.size() != 4) return std::nullopt;
+  if (n.face.size() != 4) return std::nullopt;
   for (std::size_t k = 0; k < 4; ++k)
     if (!is_regular_quad_corner(n.rings[k])) return std::nullopt;
 
@@ -107,7 +107,7 @@ std::optional<std::array<SplinePoint, 16>> regular_layout<BezierQuad>(const Neig
   constexpr std::array<std::array<int, 2>, 5> block{{{-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
   for (std::size_t k = 0; k < 4; ++k) {
     const auto &place = places[k], &u = axes[k], &v = axes[(k + 1) % 4];
-    at(place[0], place[1]) = point(n.face.vertices[k]);
+    at(place[0], place[1]) = point(n.face.vertex(static_cast<int>(k)));
     const std::array<SplinePoint, 5> outer = outer_block(corner_of(n, k));
     for (std::size_t i = 0; i < 5; ++i) {
       const auto [along_u, along_v] = block[i];
@@ -124,7 +124,7 @@ std::optional<std::array<SplinePoint, 12>> regular_layout<BezierTriangle>(const 
   std::array<SplinePoint, 12> layout;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::array<SplinePoint, 6> around = six_neighbours(corner_of(n, k));
-    layout[k] = point(n.face.vertices[k]);
+    layout[k] = point(n.face.vertex(static_cast<int>(k)));
     layout[3 + k] = around[5];
     layout[6 + 2 * k] = around[3];
     layout[7 + 2 * k] = around[4];

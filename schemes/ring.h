@@ -4,12 +4,44 @@
 
 namespace shaolin {
 
-/// A face by its vertices and sides in order: side i is the edge from vertex i to the next. Identifiers tell faces, and
-/// edges, apart that have the same vertices (two edges join the same vertices beside a triangle vertex of valence 2).
-struct FaceSides {
-  int id;
-  std::vector<int> vertices;
-  std::vector<int> sides;
+/// A face by its vertices and sides in order, seen from one of its corners: side i is the edge from vertex i to the
+/// next. Identifiers tell faces, and edges, apart that have the same vertices (two edges join the same vertices beside
+/// a triangle vertex of valence 2).
+///
+/// A view: the lists belong to a mesh, a refinement or a neighbourhood. (An n-gon stands in the rings of its n corners;
+/// copies would take n^2.) Views of one owner with equal identifiers look at the same lists.
+class FaceSides {
+ public:
+  FaceSides() = default;
+  FaceSides(int id, const int* vertices, const int* sides, int size)
+      : id_(id), size_(size), vertices_(vertices), sides_(sides) {}
+
+  int id() const { return id_; }
+  int size() const { return size_; }
+
+  /// Of place i in [0, size), counted from the corner that the face is seen from.
+  int vertex(int i) const { return vertices_[place(i)]; }
+  int side(int i) const { return sides_[place(i)]; }
+  int last_vertex() const { return vertex(size_ - 1); }
+
+  /// The same face, seen from its corner i in [0, size).
+  FaceSides turned(int i) const {
+    FaceSides result = *this;
+    result.first_ = place(i);
+    return result;
+  }
+
+  /// The i that makes turned(i) equal to another view of the same face.
+  int turn_to(const FaceSides& other) const { return (other.first_ - first_ + size_) % size_; }
+
+ private:
+  int place(int i) const { return first_ + i < size_ ? first_ + i : first_ + i - size_; }
+
+  int id_ = 0;
+  int size_ = 0;
+  int first_ = 0;
+  const int* vertices_ = nullptr;
+  const int* sides_ = nullptr;
 };
 
 /// A vertex with the edges and faces around it, counter-clockwise. Face i lies between spoke i and spoke i + 1.
@@ -38,6 +70,11 @@ struct Ring {
 struct Neighbourhood {
   FaceSides face;
   std::vector<Ring> rings;
+  std::vector<std::vector<int>> lists;  ///< what the faces look at, if the neighbourhood itself keeps it
+
+  Neighbourhood() = default;
+  Neighbourhood(Neighbourhood&&) = default;  ///< leaves the lists where they are
+  Neighbourhood& operator=(Neighbourhood&&) = default;
 };
 
 }  // namespace shaolin

@@ -30,8 +30,8 @@ class SchemeSurface final : public LimitSurface {
 
   /// The patch of a face, or of an n-gon's corner.
   Patch<S> patch(int face, int sub) const {
-    Patch<S> root = mesh_.patch(face, table_);
-    return splits_by_corner(face) ? root.child(sub) : root;
+    Patch<S> root = mesh_.patch({face, sub}, table_);
+    return splits_by_corner(face) ? root.child(0) : root;
   }
 
   /// True for an n-gon of the quad split: its patches are those of its corners, half the size.

@@ -6,17 +6,16 @@ SplitProgram::Compiler::Compiler(const Neighbourhood& parent, FaceKind kind, Spl
     : kind_(kind), program_(program) {
   for (const Ring& ring : parent.rings) {
     rings_.try_emplace(ring.vertex, &ring);
-    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id, &face);
+    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id(), face);
     for (std::size_t i = 0; i < ring.spokes.size(); ++i) edges_.try_emplace(ring.spokes[i].edge, Place{&ring, i});
   }
 }
 
 int SplitProgram::Compiler::add_face(const FaceSides& face) {
-  const auto [at, is_new] = face_steps_.try_emplace(face.id, static_cast<int>(program_.face_steps_.size()));
+  const auto [at, is_new] = face_steps_.try_emplace(face.id(), static_cast<int>(program_.face_steps_.size()));
   if (is_new) {
-    program_.face_steps_.push_back(
-        {static_cast<int>(program_.indices_.size()), static_cast<int>(face.vertices.size())});
-    program_.indices_.insert(program_.indices_.end(), face.vertices.begin(), face.vertices.end());
+    program_.face_steps_.push_back({static_cast<int>(program_.indices_.size()), face.size()});
+    for (int i = 0; i < face.size(); ++i) program_.indices_.push_back(face.vertex(i));
   }
   return at->second;
 }
@@ -35,8 +34,8 @@ void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexMask& mask
   program_.vertex_steps_.push_back(step);
 }
 
-int SplitProgram::Compiler::side(const FaceSides& face, std::size_t at) {
-  return kind_ == FaceKind::triangle ? face.vertices[(at + 2) % 3] : add_face(face);
+int SplitProgram::Compiler::side(const FaceSides& face, int at) {
+  return kind_ == FaceKind::triangle ? face.vertex((at + 2) % 3) : add_face(face);
 }
 
 void SplitProgram::Compiler::add_edge(int edge, const EdgeMask& mask) {
@@ -45,7 +44,7 @@ void SplitProgram::Compiler::add_edge(int edge, const EdgeMask& mask) {
   if (step.crease_share < 1) {
     const FaceSides& right = ring->faces[(spoke + ring->faces.size() - 1) % ring->faces.size()];
     step.left = side(ring->faces[spoke], 0);
-    step.right = side(right, right.vertices.size() - 1);
+    step.right = side(right, right.size() - 1);
   }
   program_.steps_.push_back({RefinedVertex::Kind::edge, static_cast<int>(program_.edge_steps_.size())});
   program_.edge_steps_.push_back(step);

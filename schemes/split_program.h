@@ -60,14 +60,14 @@ class SplitProgram::Compiler {
   Compiler(const Neighbourhood& parent, FaceKind kind, SplitProgram& program);
 
   int add_face(const FaceSides& face);
-  const FaceSides& face(int id) const { return *faces_.at(id); }
+  const FaceSides& face(int id) const { return faces_.at(id); }
   const Ring& ring(int vertex) const { return *rings_.at(vertex); }
   void add_vertex(const Ring& ring, const VertexMask& mask);
   void add_edge(int edge, const EdgeMask& mask);
 
  private:
   /// What an edge's smooth mask reads beyond it, in the face whose side in place `at` the edge is.
-  int side(const FaceSides& face, std::size_t at);
+  int side(const FaceSides& face, int at);
 
   /// An edge as a spoke of a ring.
   struct Place {
@@ -78,7 +78,7 @@ class SplitProgram::Compiler {
   FaceKind kind_;
   SplitProgram& program_;
   std::map<int, const Ring*> rings_;
-  std::map<int, const FaceSides*> faces_;
+  std::map<int, FaceSides> faces_;
   std::map<int, Place> edges_;
   std::map<int, int> face_steps_;
 };

@@ -33,7 +33,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   const SubdivisionMesh* parent() const { return parent_; }
   int child_count(int face) const {
     if (!this->is_held(face)) return 0;
-    return S::face_kind == FaceKind::triangle ? 4 : static_cast<int>(this->face(face).size());
+    return S::face_kind == FaceKind::triangle ? 4 : this->face_size(face);
   }
   int child_face(int face, int k) const { return first_child_[static_cast<std::size_t>(face)] + k; }
   int parent_face(int face) const { return parent_face_[static_cast<std::size_t>(face)]; }
@@ -41,9 +41,9 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   int child_of_edge(int edge) const { return this->vertex_count() + edge; }
   int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }
 
-  /// The patch of a face as a value of its own. O(size of its neighbourhood).
-  Patch<S> patch(int face, ConfigurationTable<S>& table) const {
-    auto match = table.match(this->neighbourhood(face, S::radius));
+  /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
+  Patch<S> patch(Mesh::Corner corner, ConfigurationTable<S>& table) const {
+    auto match = table.match(this->neighbourhood(corner, S::radius));
     Patch<S> result{match.configuration, {}};
     result.points.reserve(match.vertices.size());
     for (const int vertex : match.vertices) result.points.push_back(this->point(vertex));
@@ -52,20 +52,14 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
   /// Limit position and normal at corner k of a face, seen from that face.
   LimitSample limit(int face, int k, ConfigurationTable<S>& table) const {
-    Patch<S> patch = this->patch(face, table);
-    for (int corner = k;;) {
-      if (std::optional<LimitSample> limit = evaluate_corner(patch, corner)) return *limit;
-      const bool splits_by_corner = patch.configuration->corner_count() != Domain<S::face_kind>::corner_count;
-      patch = patch.child(corner);
-      if (splits_by_corner) corner = 0;
-    }
+    for (Patch<S> patch = this->patch({face, k}, table);; patch = patch.child(0))
+      if (std::optional<LimitSample> limit = evaluate_corner(patch, 0)) return *limit;
   }
 
   /// The unit normal of the plane through a face's limit points (quads: section 8.2 of the paper).
   Vec3 chord_normal(int face, ConfigurationTable<S>& table) const {
     std::vector<Vec3> limit_points;
-    for (int k = 0; k < static_cast<int>(this->face(face).size()); ++k)
-      limit_points.push_back(limit(face, k, table).position);
+    for (int k = 0; k < this->face_size(face); ++k) limit_points.push_back(limit(face, k, table).position);
     return Base::chord_normal(limit_points);
   }
 
@@ -106,7 +100,7 @@ template <Scheme S>
 std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
   std::vector<Vec3> face_points(static_cast<std::size_t>(this->face_count()));
   for (const int f : this->faces()) {
-    const std::vector<int>& v = this->face(f);
+    const std::span<const int> v = this->face(f);
     face_points[static_cast<std::size_t>(f)] =
         face_point({this->points().data(), v.data(), static_cast<int>(v.size())});
   }
@@ -118,7 +112,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     const Ring ring = this->ring(this->corner_at(v));
     std::vector<int> ends, faces;
     for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
-    for (const FaceSides& face : ring.faces) faces.push_back(face.id);
+    for (const FaceSides& face : ring.faces) faces.push_back(face.id());
     const int n = static_cast<int>(ends.size());
     result[static_cast<std::size_t>(v)] =
         vertex_point(vertex_transition(ring.sharpness, ring.spoke_sharpness()), S::smooth_vertex(n), this->point(v),
@@ -129,7 +123,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     if (!this->is_held(f)) continue;
     if (S::face_kind == FaceKind::quad)
       result[static_cast<std::size_t>(child_of_face(f))] = face_points[static_cast<std::size_t>(f)];
-    for (int i = 0; i < static_cast<int>(this->face(f).size()); ++i)
+    for (int i = 0; i < this->face_size(f); ++i)
       if (this->degenerate_side({f, i}) >= 0)
         result[static_cast<std::size_t>(child_of_side(f, i))] = this->point(this->face(f)[static_cast<std::size_t>(i)]);
   }
@@ -161,7 +155,7 @@ ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
   };
   for (const int f : this->faces()) {
     if (!this->is_held(f)) continue;
-    const std::vector<int>& v = this->face(f);
+    const std::span<const int> v = this->face(f);
     const int n = static_cast<int>(v.size());
     std::vector<int> side;
     for (int i = 0; i < n; ++i) side.push_back(child_of_side(f, i));
@@ -201,7 +195,7 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
   }
   // An edge between equal vertices is a point: its new vertex stays there, and both its halves are sharp.
   for (const int f : this->faces())
-    for (int i = 0; this->is_held(f) && i < static_cast<int>(this->face(f).size()); ++i)
+    for (int i = 0; this->is_held(f) && i < this->face_size(f); ++i)
       if (this->degenerate_side({f, i}) >= 0) {
         const int middle = child_of_side(f, i);
         next.vertex_sharpness[static_cast<std::size_t>(middle)] = infinite_sharpness;

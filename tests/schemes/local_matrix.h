@@ -31,8 +31,8 @@ LocalMatrix local_matrix(ControlMesh mesh) {
   }
   if (quads) {
     for (const FaceSides& face : ring.faces) {
-      result.vertices.push_back(face.vertices[2]);
-      children.push_back(topology.child_of_face(face.id));
+      result.vertices.push_back(face.vertex(2));
+      children.push_back(topology.child_of_face(face.id()));
     }
   }
   const auto size = static_cast<Eigen::Index>(children.size());

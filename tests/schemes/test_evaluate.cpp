@@ -161,12 +161,18 @@ TEST_CASE("A parameter that rounding put outside a triangle evaluates at its edg
   CHECK((surface->evaluate({0, 0, 1e-20, 1})->position - surface->evaluate({0, 0, 0, 1})->position).norm() < 1e-15);
 }
 
-TEST_CASE("An n-gon of 1,000 sides evaluates", "[schemes][evaluate]") {
-  const auto surface = make_limit_surface(prism(1000), "catmark");
-  const LimitSample a = *surface->evaluate({1, 500, 0.25, 0.5});
+TEST_CASE("An n-gon of 10,000 sides evaluates", "[schemes][evaluate]") {
+  constexpr int n = 10000, turn = 2500;
+  const auto surface = make_limit_surface(prism(n), "catmark");
   const LimitSample centre = *surface->evaluate({1, 0, 1, 1});
-  CHECK(a.position.allFinite());
-  CHECK(std::hypot(centre.position.x(), centre.position.y()) < 1e-12);
+  CHECK(centre.position.head<2>().norm() < 1e-12);
+  CHECK((centre.normal - Vec3::UnitZ()).norm() < 1e-9);
+  // A quarter of its corners on, the surface has made a quarter turn.
+  const LimitSample here = *surface->evaluate({1, 0, 0.25, 0.5}), there = *surface->evaluate({1, turn, 0.25, 0.5});
+  const auto turned = [](const Vec3& p) { return Vec3(-p.y(), p.x(), p.z()); };
+  CHECK((there.position - turned(here.position)).norm() < 1e-14);
+  CHECK((there.normal - turned(here.normal)).norm() < 1e-12);
+  CHECK((there.derivatives->du - turned(here.derivatives->du)).norm() < 1e-12);
 }
 
 TEMPLATE_TEST_CASE("Vertices of valence 360 and 10,000 evaluate", "[schemes][evaluate]", Loop, CatmullClark) {
