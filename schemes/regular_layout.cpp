@@ -52,7 +52,10 @@ bool is_regular_quad_corner(const Ring& ring) {
 }
 
 bool is_regular_triangle_corner(const Ring& ring) {
-  return smooth_inside(ring) && !is_sharp(ring.sharpness) && ring.faces.size() == (ring.closed ? 6u : 3u);
+  if (!smooth_inside(ring)) return false;
+  if (ring.closed) return ring.faces.size() == 6 && !is_sharp(ring.sharpness);
+  if (ring.faces.size() == 3) return !is_sharp(ring.sharpness);
+  return ring.faces.size() == 1 && is_infinite(ring.sharpness);
 }
 
 /// The five points of the 3 x 3 block around a corner that are not the face's, in the corner's own axes (u along the
@@ -81,6 +84,10 @@ std::array<SplinePoint, 6> six_neighbours(const Corner& corner) {
   std::array<SplinePoint, 6> around;
   const std::vector<Ring::Spoke>& s = corner.ring.spokes;
   const int c = corner.ring.vertex;
+  if (corner.faces() == 1) {
+    const int next = s[0].end, last = s[1].end;
+    return {point(next), point(last), across(c, last, next), beyond(c, next), beyond(c, last), across(c, next, last)};
+  }
   for (std::size_t i = 0; i < 6; ++i) {
     const std::size_t at = (corner.place + i) % 6;
     if (at < s.size()) {

@@ -13,7 +13,8 @@ namespace shaolin {
 /// A spline control point as a small combination of the neighbourhood's points: one of them, or a phantom beyond a
 /// crease, so placed that the spline's smooth rules give the crease rules:
 /// on quads 2 p0 - p1 (p0 on the crease, p1 inside), and twice that at a corner; on triangles a + b - c, the vertex
-/// opposite of c across the sharp edge a-b. (Substitute them into the smooth masks: (1/8, 3/4, 1/8) comes out.)
+/// opposite of c across the sharp edge a-b, and 2 c - a, 2 c - b behind a corner c. (Substitute them into the smooth
+/// masks: (1/8, 3/4, 1/8) comes out along a crease, c at a corner.)
 struct SplinePoint {
   int count = 0;
   std::array<int, 4> index{};
@@ -29,8 +30,8 @@ struct SplinePoint {
 
 /// The spline points of a regular patch, in the order of Patch::from_spline; empty if the neighbourhood is irregular:
 /// every corner must be smooth and of regular valence, or lie on an infinitely sharp crease (a boundary) with half as
-/// many faces on this side, or (quads) be a corner of a single face. Takes the neighbourhood as canonical_form() has
-/// it: cut at creases, rings turned to the face.
+/// many faces on this side, or be an infinitely sharp corner of a single face. Takes the neighbourhood as
+/// canonical_form() has it: cut at creases, rings turned to the face.
 template <class Patch>
 std::optional<std::array<SplinePoint, Patch::spline_size>> regular_layout(const Neighbourhood& neighbourhood);
 

@@ -27,10 +27,9 @@ TEMPLATE_TEST_CASE("Boundaries and infinitely sharp creases are regular", "[sche
   const SchemeSurface<S> surface(mesh);
   int regular = 0;
   for (int face = 0; face < surface.face_count(); ++face) regular += surface.patch(face, 0).is_regular();
-  // Where the crease meets the boundary is a corner: of one quad on each side, which is regular, but of three
-  // triangles. Neither do the sheet's corners suit triangles, of one or two each: 3 + 3 and 1 + 1 + 2 + 2 are not
-  // regular.
-  CHECK(regular == (S::face_kind == FaceKind::quad ? 36 : 72 - 12));
+  // A corner of one face is regular. On triangles two of the sheet's corners have two faces, and where the crease meets
+  // the boundary there are one face on one side and two on the other.
+  CHECK(regular == (S::face_kind == FaceKind::quad ? 36 : 72 - (2 + 2) - (2 + 2)));
 }
 
 TEMPLATE_TEST_CASE("The configurations around an irregular corner close", "[schemes][configuration]", Loop,

@@ -52,15 +52,21 @@ SurfaceValues BfrPatch::as_bfr_says(double u, double v) const {
 
 /// OpenSubdiv 3.5 gives the second derivatives the wrong sign in those triangular pieces of an irregular face that are
 /// turned by half a turn: it applies the turn's sign three times, not twice. The change of the first derivatives over
-/// a small step into the face tells which sign is meant.
+/// small steps tells which sign is meant. Steps towards all three corners stay inside the face, and no surface is
+/// straight in all their directions unless its second derivatives vanish.
 SurfaceValues BfrPatch::evaluate(double u, double v) const {
   SurfaceValues values = as_bfr_says(u, v);
   if (!triangular_ || surface_.IsRegular()) return values;
-  const double h = 1.0 / (1 << 20), third = 1.0 / 3;
-  const double step_u = u < third ? h : -h, step_v = v < third ? h : -h;
-  const SurfaceValues there = as_bfr_says(u + step_u, v + step_v);
-  const Vec3 change_u = values.duu * step_u + values.duv * step_v, change_v = values.duv * step_u + values.dvv * step_v;
-  if (change_u.dot(there.du - values.du) + change_v.dot(there.dv - values.dv) < 0) {
+  constexpr double share = 1.0 / (1 << 20);
+  constexpr double corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  double agreement = 0;
+  for (const auto& corner : corners) {
+    const double step_u = share * (corner[0] - u), step_v = share * (corner[1] - v);
+    const SurfaceValues there = as_bfr_says(u + step_u, v + step_v);
+    agreement += (values.duu * step_u + values.duv * step_v).dot(there.du - values.du) +
+                 (values.duv * step_u + values.dvv * step_v).dot(there.dv - values.dv);
+  }
+  if (agreement < 0) {
     values.duu = -values.duu, values.duv = -values.duv, values.dvv = -values.dvv;
   }
   return values;
