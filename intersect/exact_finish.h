@@ -36,7 +36,7 @@ class ExactFinish {
 
   /// True if a hit was found; then hit() is the nearest.
   bool solve(const Net& patch) {
-    visit(patch, Parameter::Zero(), 1.0, 0);
+    visit(patch, Parameter::Zero(), Parameter::Ones());
     return found_;
   }
   const PatchHit& hit() const { return best_; }
@@ -46,23 +46,34 @@ class ExactFinish {
   using Matrix = Eigen::Matrix2d;
 
   /// Cells this small are points: halving further changes no double in [1/2, 1].
-  static constexpr int deepest = 52;
+  static constexpr double smallest = 0x1p-52;
   /// A ray that runs within a surface, or along a fold, meets it in a curve; the cells around a curve are without
-  /// number. Past this many, cells count as points once they are this deep: below 1e-12 of the patch.
+  /// number. Past this many, cells count as points once they are below 1e-12 of the patch, and after each as many again
+  /// a hit must be nearer by twice as much to count, up to 16 times the error.
   static constexpr int patience = 512;
-  static constexpr int deepest_out_of_patience = 42;
+  static constexpr double smallest_out_of_patience = 0x1p-42;
+  /// Slopes against the ray count up to here: a steeper cell is looked into, though its distances are less certain. It
+  /// may lie beside straight lines along the ray, whose near end is to be found.
+  static constexpr double steepest = 1e4;
 
   enum class Verdict { none, found, unknown };
 
-  void visit(const Net& cell, const Parameter& origin, double scale, int depth);
-  void split(const Net& cell, const Parameter& origin, double scale, int depth);
+  /// A cell's parameters p stand for origin + scale * p, per coordinate.
+  void visit(const Net& cell, const Parameter& origin, const Parameter& scale);
+  void split(const Net& cell, const Parameter& origin, const Parameter& scale);
+  int long_axis(const Net& cell, const Parameter& scale) const;
+  bool in_band(const Range& x, const Range& y) const {
+    return std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
+  }
   bool is_no_nearer(const Net& cell, const Matrix& jacobian) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit);
-  void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
+  void accept(const Parameter& at, double distance, const Parameter& origin, const Parameter& scale);
+
+  double impatience() const { return std::exp2(std::min(4, cells_ / patience)); }
 
   /// The distance past which nothing is of interest.
-  double horizon() const { return best_.distance + (has_hit_ ? -error_ : error_); }
+  double horizon() const { return best_.distance + (has_hit_ ? -impatience() * error_ : error_); }
 
   double error_;
   double near_;
@@ -74,15 +85,16 @@ class ExactFinish {
 };
 
 template <class Bezier>
-void ExactFinish<Bezier>::accept(const Parameter& at, double distance, const Parameter& origin, double scale) {
+void ExactFinish<Bezier>::accept(const Parameter& at, double distance, const Parameter& origin,
+                                 const Parameter& scale) {
   // A hit counts as within the interval if rounding alone could have moved it out.
   if (distance < near_ - error_ || distance > horizon()) return;
-  best_ = {origin + scale * at, distance};
+  best_ = {origin + scale.cwiseProduct(at), distance};
   found_ = has_hit_ = true;
 }
 
 template <class Bezier>
-void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double scale, int depth) {
+void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, const Parameter& scale) {
   ++counters_.cells;
   ++cells_;
   const Range x(cell.x);
@@ -94,9 +106,9 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
 
   // A cell that touches the ray's band of error and reaches no farther than twice its width is a point, too: splitting
   // it would only trace the band's edge. (Along the ray it must be short, or it is a curve that runs along the ray.)
-  const bool in_band = std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_ && z.high - z.low <= 16 * error_;
-  const bool is_point = in_band || depth >= deepest || (cells_ > patience && depth >= deepest_out_of_patience);
-  if (is_point) {
+  const bool is_point = in_band(x, y) && z.high - z.low <= 16 * error_;
+  const double size = scale.cwiseAbs().maxCoeff();
+  if (is_point || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience)) {
     const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
     accept(D::centre(), std::max(distance, near_), origin, scale);
     return;
@@ -105,9 +117,17 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
   if (has_hit_ && cells_ > 4 && is_no_nearer(cell, jacobian)) return;
-  const double determinant = jacobian.determinant();
-  if (std::abs(determinant) <= 1e-12 * jacobian.col(0).norm() * jacobian.col(1).norm())
-    return split(cell, origin, scale, depth);
+  const double along_u_length = jacobian.col(0).norm(), along_v_length = jacobian.col(1).norm();
+  if (std::abs(jacobian.determinant()) <= 1e-12 * along_u_length * along_v_length) {
+    // Seen from the ray the cell is nearly a curve: the hull test across it.
+    const Eigen::Vector2d along = jacobian.col(along_u_length > along_v_length ? 0 : 1);
+    std::array<double, 16> across;
+    combine(-along.y(), cell.x, along.x(), cell.y, across);
+    const Range distance(across);
+    const double slack = error_ * along.cwiseAbs().sum() * (1 + 1e-10);
+    if (distance.low > slack || distance.high < -slack) return;
+    return split(cell, origin, scale);
+  }
   const Matrix flattening = jacobian.inverse();
 
   // The hull test again, along the cell's own axes.
@@ -121,14 +141,15 @@ void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, double
   const Range along_v(flat_y);
   if (along_v.low > slack_y || along_v.high < -slack_y) return;
 
+  // Where the error is not small against the cell, seen from the ray, there is no one zero for Newton's method to find.
   const double share = contraction(flat_x, flat_y);
-  if (share < 0.95) {
+  if (share < 0.95 && error_ * flattening.norm() < 0.25) {
     PatchHit hit;
     const Verdict verdict = newton(cell, flattening, share, hit);
     if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
-  split(cell, origin, scale, depth);
+  split(cell, origin, scale);
 }
 
 /// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty.
@@ -147,10 +168,7 @@ bool ExactFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) 
   std::array<double, 16> plane, rest;
   combine(ab.x(), cell.x, ab.y(), cell.y, plane);
   combine(1, cell.z, -1, plane, rest);
-  // A ray that has found hit after hit, each a little nearer, is running along the surface: ask for more each time, up
-  // to a thousand times the uncertainty, some 1e-11 of the patch.
-  const double impatience = std::exp2(std::min(10, cells_ / patience));
-  return Range(rest).low > best_.distance - impatience * error_ * (1 + ab.cwiseAbs().sum());
+  return Range(rest).low > best_.distance - impatience() * error_ * (1 + std::min(ab.cwiseAbs().sum(), steepest));
 }
 
 /// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
@@ -211,9 +229,46 @@ auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, doub
   return Verdict::unknown;
 }
 
+/// The axis along which alone a cell is to be halved: seen from the ray its points move 16 times as far along it as
+/// along the other (along the ray, for a cell that lies on it). -1 if both are to be. Where a ray runs beside the
+/// straight lines of a ruled patch at a distance near its error, square cells would be a million.
 template <class Bezier>
-void ExactFinish<Bezier>::split(const Net& cell, const Parameter& origin, double scale, int depth) {
-  const std::array<Bezier, 4> quarters = cell.bezier<Bezier>().split();
+int ExactFinish<Bezier>::long_axis(const Net& cell, const Parameter& scale) const {
+  const bool on_ray = in_band(Range(cell.x), Range(cell.y));
+  const auto longest_step = [&](const auto& pairs) {
+    double longest = 0;
+    for (const auto& [from, to] : pairs) {
+      const double step = on_ray ? std::abs(cell.z[to] - cell.z[from])
+                                 : std::max(std::abs(cell.x[to] - cell.x[from]), std::abs(cell.y[to] - cell.y[from]));
+      longest = std::max(longest, step);
+    }
+    return longest;
+  };
+  constexpr double ratio = 16;
+  const double along_u = longest_step(Bezier::u_pairs), along_v = longest_step(Bezier::v_pairs);
+  if (along_u > ratio * along_v && scale.x() > smallest) return 0;
+  if (along_v > ratio * along_u && scale.y() > smallest) return 1;
+  return -1;
+}
+
+template <class Bezier>
+void ExactFinish<Bezier>::split(const Net& cell, const Parameter& origin, const Parameter& scale) {
+  if constexpr (requires(const Bezier& patch) { patch.halves(0); }) {
+    if (const int axis = long_axis(cell, scale); axis >= 0) {
+      const auto halves = cell.template bezier<Bezier>().halves(axis);
+      const std::array<Net, 2> children{Net(halves[0]), Net(halves[1])};
+      Parameter child_scale = scale;
+      child_scale[axis] /= 2;
+      const bool upper_first = Range(children[1].z).low < Range(children[0].z).low;
+      for (const std::size_t k : {upper_first ? 1U : 0U, upper_first ? 0U : 1U}) {
+        Parameter child_origin = origin;
+        if (k == 1) child_origin[axis] += child_scale[axis];
+        visit(children[k], child_origin, child_scale);
+      }
+      return;
+    }
+  }
+  const std::array<Bezier, 4> quarters = cell.template bezier<Bezier>().split();
   std::array<Net, 4> children;
   std::array<std::pair<double, int>, 4> order;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -222,8 +277,8 @@ void ExactFinish<Bezier>::split(const Net& cell, const Parameter& origin, double
   }
   std::sort(order.begin(), order.end());
   for (const auto& [distance, k] : order) {
-    const Parameter child_origin = origin + scale * D::to_parent(k, Parameter::Zero());
-    visit(children[static_cast<std::size_t>(k)], child_origin, scale * D::scale(k), depth + 1);
+    const Parameter child_origin = origin + scale.cwiseProduct(D::to_parent(k, Parameter::Zero()));
+    visit(children[static_cast<std::size_t>(k)], child_origin, scale * D::scale(k));
   }
 }
 

@@ -46,16 +46,18 @@ struct BezierQuad {
     return d;
   }
 
-  /// The four quarters, in the order of Domain<quad> (de Casteljau at 1/2: midpoints only).
+  /// The halves in u (axis 0) or v (axis 1), the lower one first (de Casteljau at 1/2: midpoints only).
+  std::array<BezierQuad, 2> halves(int axis) const {
+    const std::size_t along = axis == 0 ? 1 : 4, across = axis == 0 ? 4 : 1;
+    std::array<BezierQuad, 2> half;
+    for (std::size_t i = 0; i < 4 * across; i += across) halve(&b[i], &half[0].b[i], &half[1].b[i], along);
+    return half;
+  }
+
+  /// The four quarters, in the order of Domain<quad>.
   std::array<BezierQuad, 4> split() const {
-    BezierQuad low, high;
-    for (std::size_t j = 0; j < 4; ++j) halve(&b[4 * j], &low.b[4 * j], &high.b[4 * j], 1);
-    std::array<BezierQuad, 4> quarter;
-    for (std::size_t i = 0; i < 4; ++i) {
-      halve(&low.b[i], &quarter[0].b[i], &quarter[3].b[i], 4);
-      halve(&high.b[i], &quarter[1].b[i], &quarter[2].b[i], 4);
-    }
-    return quarter;
+    const std::array<BezierQuad, 2> half = halves(0), low = half[0].halves(1), high = half[1].halves(1);
+    return {low[0], high[0], high[1], low[1]};
   }
 
   /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
