@@ -40,6 +40,7 @@ struct TraversalRay {
   Vec3 origin, direction, inverse;
   double length;  ///< of the given direction: distance = t * length
   double near, far;
+  std::array<std::uint8_t, 3> entered_at;  ///< per axis: 0 if the ray comes to a box's lower bound first, 1 if upper
 
   explicit TraversalRay(const Ray& ray) : origin(ray.origin) {
     // Scale first: the square of a tiny or huge direction would underflow or overflow.
@@ -48,6 +49,7 @@ struct TraversalRay {
     length = scaled.norm() * scale;
     direction = scaled.normalized();
     inverse = direction.cwiseInverse();
+    for (std::size_t axis = 0; axis < 3; ++axis) entered_at[axis] = inverse[static_cast<Eigen::Index>(axis)] < 0;
     near = ray.tmin * length;
     far = ray.tmax * length;
   }
@@ -80,16 +82,19 @@ class BoxOrder {
     Four entry(-missed), exit(missed);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<Eigen::Index>(axis);
-      const bool negative = ray.inverse[at] < 0;
       const Four origin(ray.origin[at]), inverse(ray.inverse[at]);
-      entry = larger((Four(boxes.bounds[negative][axis]) - origin) * inverse, entry);
-      exit = smaller((Four(boxes.bounds[!negative][axis]) - origin) * inverse, exit);
+      const std::size_t first = ray.entered_at[axis];
+      entry = larger((Four(boxes.bounds[first][axis]) - origin) * inverse, entry);
+      exit = smaller((Four(boxes.bounds[1 - first][axis]) - origin) * inverse, exit);
     }
     const Four slack(4 * unit_roundoff);
     entry = entry - slack * abs(entry);
     exit = exit + slack * abs(exit);
     const int met = at_most(entry, exit) & at_most(Four(ray.near), exit) & at_most(entry, Four(far));
-    if (met != 0) sort(met, entry);
+    if (met == 0) return;
+    std::array<double, 4> value;
+    entry.store(value.data());
+    sort(static_cast<unsigned>(met), value);
   }
 
   int count() const { return count_; }
@@ -99,12 +104,11 @@ class BoxOrder {
  private:
   static constexpr double missed = std::numeric_limits<double>::infinity();
 
-  void sort(int met, const Four& entry) {
-    std::array<double, 4> value;
-    entry.store(value.data());
-    for (auto rest = static_cast<unsigned>(met); rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-      auto at = static_cast<std::size_t>(count_++);
+  void sort(unsigned met, const std::array<double, 4>& value) {
+    int count = 0;
+    for (; met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      auto at = static_cast<std::size_t>(count++);
       for (; at > 0 && distance_[at - 1] > value[i]; --at) {
         distance_[at] = distance_[at - 1];
         box_[at] = box_[at - 1];
@@ -112,6 +116,7 @@ class BoxOrder {
       distance_[at] = value[i];
       box_[at] = static_cast<std::uint8_t>(i);
     }
+    count_ = count;
   }
 
   int count_ = 0;

@@ -67,11 +67,24 @@ class ShaoLin {
 
   /// A ray on its way through one start patch.
   struct Search {
+    Search(const TraversalRay& along, const Vec3& normal, double horizon, RayCounters& count)
+        : ray(along), plane_normal(normal), far(horizon), counters(count) {}
+
     const TraversalRay& ray;
-    RayFrame frame;
+    const Vec3& plane_normal;
     double far;
     RayCounters& counters;
-    Found found{};
+    const Node* found = nullptr;
+    PatchHit hit;
+
+    /// The ray's frame, made when a patch first asks: most rays miss the boxes of most patches.
+    const RayFrame& frame() {
+      if (!frame_) frame_.emplace(ray, plane_normal);
+      return *frame_;
+    }
+
+   private:
+    std::optional<RayFrame> frame_;
   };
 
   const StartPatch& start_patch(int primitive) const;
@@ -162,12 +175,11 @@ auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) 
         const StartPatch& start = start_patch(primitive);
         // The tree's own box pays only where it saves a finish: otherwise its children's boxes come next.
         if (start.root.is_leaf() && BoxOrder(start.box, ray, far).count() == 0) return false;
-        Search search{ray, RayFrame(ray, start.normal), far, counters};
+        Search search(ray, start.normal, far, counters);
         descend<query>(start.root, search);
-        if (!search.found.node) return false;
-        best = search.found;
-        best.face = primitives_[static_cast<std::size_t>(primitive)].face;
-        best.sub = primitives_[static_cast<std::size_t>(primitive)].sub;
+        if (!search.found) return false;
+        const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+        best = {search.found, search.hit, face, sub};
         far = std::min(far, best.hit.distance);
         return query == Query::any;
       });
@@ -196,7 +208,7 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
 /// The surface at a hit: from the polynomial where it is as good as evaluation from the control face, that is, unless
 /// the piece is so small that differences of its absolute coordinates lose the normal's digits.
 template <Scheme S, template <class> class Finish>
-LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
+[[gnu::flatten]] LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
   const bool regular = found.node->is_regular();
   if (!regular || found.node->level() > deepest_absolute) {
@@ -221,9 +233,10 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
   const typename Node::Children* children = node.known_children();
   if (!children || node.is_tiny()) {
     ++search.counters.hull_tests;
-    const Box hull = node.is_regular() ? search.frame.hull(node.regular()) : search.frame.hull(node.irregular().points);
+    const Box hull =
+        node.is_regular() ? search.frame().hull(node.regular()) : search.frame().hull(node.irregular().points);
     const Vec3 &low = hull.lower, &high = hull.upper;
-    const double error = search.frame.error(node.box());
+    const double error = search.frame().error(node.box());
     if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;
     // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
     if (node.is_tiny() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
@@ -235,31 +248,31 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
   const BoxOrder shadow_list(children->boxes, search.ray, search.far);
   for (int i = 0; i < shadow_list.count() && shadow_list.distance(i) <= search.far; ++i) {
     descend<query>(children->nodes[shadow_list.box(i)], search);
-    if (query == Query::any && search.found.node) return;
+    if (query == Query::any && search.found) return;
   }
 }
 
 template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
   Net projected;
-  search.frame.project(node.regular(), projected);
+  search.frame().project(node.regular(), projected);
   const bool far_is_hit = search.far < search.ray.far;
-  Finish<Regular> solver(search.frame.error(node.box()), search.ray.near, search.far, far_is_hit, search.counters);
+  Finish<Regular> solver(search.frame().error(node.box()), search.ray.near, search.far, far_is_hit, search.counters);
   if (!solver.solve(projected)) return;
-  search.found.node = &node;
-  search.found.hit = solver.hit();
+  search.found = &node;
+  search.hit = solver.hit();
   search.far = std::min(search.far, solver.hit().distance);
 }
 
 /// The whole patch is one point to within rounding: the irregular corner's limit.
 template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Box& hull, Search& search) const {
-  const double error = search.frame.error(node.box());
+  const double error = search.frame().error(node.box());
   if (hull.upper.z() < search.ray.near - error) return;
-  const double distance = std::max(search.frame.project(node.irregular().points.front()).z(), search.ray.near);
+  const double distance = std::max(search.frame().project(node.irregular().points.front()).z(), search.ray.near);
   if (distance > search.far - (search.far < search.ray.far ? error : 0)) return;
-  search.found.node = &node;
-  search.found.hit = {Domain<S::face_kind>::centre(), distance};
+  search.found = &node;
+  search.hit = {Domain<S::face_kind>::centre(), distance};
   search.far = distance;
 }
 

@@ -39,7 +39,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   int parent_face(int face) const { return parent_face_[static_cast<std::size_t>(face)]; }
   int child_of_vertex(int vertex) const { return vertex; }
   int child_of_edge(int edge) const { return this->vertex_count() + edge; }
-  int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }
+  int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }  ///< quad split only
 
   /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
   Patch<S> patch(Mesh::Corner corner, ConfigurationTable<S>& table) const {
@@ -80,6 +80,9 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   }
 
   int child_of_side(int face, int place) const;
+  int child_of_degenerate_side(int side) const {
+    return child_of_face(S::face_kind == FaceKind::quad ? this->face_count() : 0) + side;
+  }
   std::vector<Vec3> refined_points() const;
   ManifoldMesh refined_topology() const;
   void add_sharpness(ManifoldMesh& next) const;
@@ -92,7 +95,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 template <Scheme S>
 int SubdivisionMesh<S>::child_of_side(int face, int place) const {
   if (const int degenerate = this->degenerate_side({face, place}); degenerate >= 0)
-    return child_of_face(this->face_count()) + degenerate;
+    return child_of_degenerate_side(degenerate);
   return child_of_edge(this->side({face, place}));
 }
 
@@ -105,7 +108,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
         face_point({this->points().data(), v.data(), static_cast<int>(v.size())});
   }
 
-  std::vector<Vec3> result(static_cast<std::size_t>(child_of_face(this->face_count()) + this->degenerate_side_count()));
+  std::vector<Vec3> result(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())));
   for (const int v : this->vertices()) {
     result[static_cast<std::size_t>(v)] = this->point(v);
     if (this->corner_at(v).face < 0) continue;
@@ -181,14 +184,13 @@ ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
 
 template <Scheme S>
 void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
-  const int edge_points = child_of_edge(0), face_points = child_of_face(0), rest = child_of_face(this->face_count());
-  next.vertex_sharpness.assign(static_cast<std::size_t>(rest + this->degenerate_side_count()), 0);
+  next.vertex_sharpness.assign(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())), 0);
   for (const int v : this->vertices())
     next.vertex_sharpness[static_cast<std::size_t>(v)] = decayed(this->vertex_sharpness(v));
   const auto set = [&](int a, int b, float sharpness) {
     if (is_sharp(sharpness)) next.sharp_edges[ManifoldMesh::edge_key(a, b)] = sharpness;
   };
-  for (int e = 0; e < face_points - edge_points; ++e) {
+  for (const int e : this->edges()) {
     const auto edge = this->edge(e);
     set(edge.a, child_of_edge(e), decayed(edge.sharpness));
     set(edge.b, child_of_edge(e), decayed(edge.sharpness));
