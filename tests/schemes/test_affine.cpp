@@ -43,8 +43,7 @@ Eigen::Matrix3d linear_part(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 std::vector<std::array<double, 2>> parameters(bool triangular) {
-  std::vector<std::array<double, 2>> result{{0, 0},      {1, 0},        {0, 1},        {0.5, 0},
-                                            {0.3, 0.45}, {0.999, 1e-4}, {1e-12, 1e-13}};
+  std::vector<std::array<double, 2>> result{{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.3, 0.45}, {0.999, 1e-4}, {1e-4, 1e-5}};
   if (!triangular) result.push_back({1, 1});
   return result;
 }
