@@ -7,11 +7,17 @@ namespace shaolin {
 namespace {
 
 struct Aim {
+  const Scene& scene;
+  double diagonal;
   int rays = 0, lost = 0, beyond = 0, faults = 0;
   std::uint64_t most_cells = 0;  ///< that a ray asked
   std::string first_fault;
 
-  void shoot(const Scene& scene, const SurfaceParameter& at, const Vec3& direction, double distance, double diagonal) {
+  Aim(const Scene& of, double size) : scene(of), diagonal(size) {}
+
+  /// A ray through a point of the surface, from `diagonals` times the model's size away.
+  void shoot(const SurfaceParameter& at, const Vec3& direction, double diagonals) {
+    const double distance = diagonals * diagonal;
     const LimitSample target = *scene.surface().evaluate(at);
     const Ray ray = ray_at(target.position, direction, distance);
     // Rounding moves the hit along a ray by as much more as the ray grazes; a tangent one by the root of it.
@@ -62,50 +68,43 @@ std::vector<Vec3> directions_at(const LimitSample& sample, Random& random, int m
   return result;
 }
 
-}  // namespace
-
-TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin][sweep]") {
+/// Calls shoot(aim, scene, face, sub, random) for the patches of about 300 faces of every model; all rays must hit.
+template <class Shoot>
+void check_all_models(std::uint64_t seed, Shoot shoot) {
+  REQUIRE_FALSE(all_models().empty());  // else no ray would be shot
   for (const Model& model : all_models()) {
     CAPTURE(model.name, model.scheme);
     const Scene scene(model.mesh, model.scheme);
-    const double diagonal = model.mesh.diagonal();
-    const LimitSurface& surface = scene.surface();
-    Random random(7);
-    Aim aim;
-    const int stride = 1 + surface.face_count() / 300;
-    for_each_patch(surface, [&](int face, int sub) {
-      if (face % stride != 0) return;
-      for (const auto& corner : domain_corners(surface)) {
-        const SurfaceParameter at{face, sub, corner[0], corner[1]};
-        for (const Vec3& d : directions_at(*surface.evaluate(at), random, 3))
-          aim.shoot(scene, at, d, diagonal * random.uniform(0.5, 3), diagonal);
-      }
+    Random random(seed);
+    Aim aim(scene, model.mesh.diagonal());
+    const int stride = 1 + scene.surface().face_count() / 300;
+    for_each_patch(scene.surface(), [&](int face, int sub) {
+      if (face % stride == 0) shoot(aim, scene.surface(), face, sub, random);
     });
     aim.check();
   }
 }
 
+}  // namespace
+
+TEST_CASE("No ray aimed at a corner of a patch is lost", "[intersect][shaolin][sweep]") {
+  check_all_models(7, [](Aim& aim, const LimitSurface& surface, int face, int sub, Random& random) {
+    for (const auto& corner : domain_corners(surface)) {
+      const SurfaceParameter at{face, sub, corner[0], corner[1]};
+      for (const Vec3& d : directions_at(*surface.evaluate(at), random, 3)) aim.shoot(at, d, random.uniform(0.5, 3));
+    }
+  });
+}
+
 TEST_CASE("No ray aimed at a point of an edge is lost", "[intersect][shaolin][sweep]") {
-  for (const Model& model : all_models()) {
-    CAPTURE(model.name, model.scheme);
-    const Scene scene(model.mesh, model.scheme);
-    const double diagonal = model.mesh.diagonal();
-    const LimitSurface& surface = scene.surface();
-    Random random(8);
-    Aim aim;
-    const int stride = 1 + surface.face_count() / 300;
-    for_each_patch(surface, [&](int face, int sub) {
-      if (face % stride != 0) return;
-      for (std::size_t k = 0; k < domain_corners(surface).size(); ++k)
-        for (const double along : {0.5, random.uniform(), 1e-3 * random.uniform(), 1e-9}) {
-          const SurfaceParameter at = on_side(surface, face, sub, k, along);
-          const LimitSample sample = *surface.evaluate(at);
-          for (const Vec3& d : directions_at(sample, random, 1))
-            aim.shoot(scene, at, d, diagonal * random.uniform(0.5, 3), diagonal);
-        }
-    });
-    aim.check();
-  }
+  check_all_models(8, [](Aim& aim, const LimitSurface& surface, int face, int sub, Random& random) {
+    for (std::size_t k = 0; k < domain_corners(surface).size(); ++k)
+      for (const double along : {0.5, random.uniform(), 1e-3 * random.uniform(), 1e-9}) {
+        const SurfaceParameter at = on_side(surface, face, sub, k, along);
+        const LimitSample sample = *surface.evaluate(at);
+        for (const Vec3& d : directions_at(sample, random, 1)) aim.shoot(at, d, random.uniform(0.5, 3));
+      }
+  });
 }
 
 }  // namespace shaolin

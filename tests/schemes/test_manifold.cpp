@@ -1,0 +1,176 @@
+// Cutting into manifold pieces: how often, where, and with which sharpness.
+#include "schemes/manifold.h"
+
+#include <algorithm>
+
+#include "schemes/catmull_clark.h"
+#include "schemes/loop.h"
+#include "schemes/subdivision_mesh.h"
+#include "tests/catch.h"
+#include "tests/models.h"
+
+namespace shaolin {
+
+namespace {
+
+/// Topology alone matters here: points on a parabola, no three in line.
+ControlMesh faces_only(const std::vector<std::vector<int>>& faces) {
+  int most = 0;
+  for (const auto& face : faces) most = std::max(most, *std::max_element(face.begin(), face.end()));
+  std::vector<Vec3> points;
+  for (int i = 0; i <= most; ++i) points.emplace_back(i, i * i, 0);
+  return mesh_of(points, faces);
+}
+
+/// The number of cut vertices that each input vertex became.
+std::vector<int> pieces(const ControlMesh& input, const ManifoldMesh& cut) {
+  std::vector<int> result(input.positions.size(), 0);
+  for (const int origin : cut.origin) ++result[static_cast<std::size_t>(origin)];
+  return result;
+}
+
+/// Faces keep their numbers and corners, and all that have an inside fit into half-edges.
+template <Scheme S>
+void check_holds(const ControlMesh& input) {
+  const ManifoldMesh cut = cut_to_manifold(input);
+  REQUIRE(cut.face_offsets == input.face_offsets);
+  for (std::size_t i = 0; i < input.face_vertices.size(); ++i)
+    CHECK(cut.origin[static_cast<std::size_t>(cut.face_vertices[i])] == input.face_vertices[i]);
+  const SubdivisionMesh<S> mesh(input);
+  for (const int f : mesh.faces()) CHECK((mesh.is_held(f) || !mesh.has_limit(f)));
+  for (const int v : mesh.vertices())
+    if (mesh.corner_at(v).face >= 0) CHECK_FALSE(mesh.ring(mesh.corner_at(v)).faces.empty());
+}
+
+constexpr float infinite = infinite_sharpness;
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("A manifold mesh stays whole", "[schemes][manifold]", Loop, CatmullClark) {
+  for (const ControlMesh& mesh : {poles(TestType::name, 5), sheet(TestType::name, 3, 2), torus(TestType::name, 4, 4)}) {
+    const ManifoldMesh cut = cut_to_manifold(mesh);
+    CHECK(cut.cut_edges == 0);
+    CHECK(cut.cut_vertices == 0);
+    CHECK(cut.origin.size() == mesh.positions.size());
+    CHECK(cut.face_vertices == mesh.face_vertices);
+    check_holds<TestType>(mesh);
+  }
+}
+
+TEST_CASE("Three faces at an edge fall apart along it", "[schemes][manifold]") {
+  const ControlMesh mesh = faces_only({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 1);
+  CHECK(cut.cut_vertices == 2);
+  CHECK(pieces(mesh, cut) == std::vector{3, 3, 1, 1, 1});
+  for (const std::size_t corner : {0u, 3u, 6u}) {
+    const int a = cut.face_vertices[corner], b = cut.face_vertices[corner + 1];
+    CHECK(cut.edge_sharpness(a, b) == infinite);
+    CHECK(cut.vertex_sharpness[static_cast<std::size_t>(a)] == infinite);
+    CHECK(cut.vertex_sharpness[static_cast<std::size_t>(b)] == infinite);
+  }
+  check_holds<Loop>(mesh);
+}
+
+TEST_CASE("A bow-tie is cut at its knot, which is a corner in every boundary mode", "[schemes][manifold]") {
+  ControlMesh mesh = faces_only({{0, 1, 2}, {0, 3, 4}});
+  for (const auto mode : {BoundaryInterpolation::edge_and_corner, BoundaryInterpolation::edge_only}) {
+    mesh.boundary = mode;
+    const ManifoldMesh cut = cut_to_manifold(mesh);
+    CHECK(cut.cut_edges == 0);
+    CHECK(cut.cut_vertices == 1);
+    CHECK(pieces(mesh, cut) == std::vector{2, 1, 1, 1, 1});
+    CHECK(cut.face_vertices == std::vector{0, 1, 2, 5, 3, 4});
+    CHECK(cut.vertex_sharpness[0] == infinite);
+    CHECK(cut.vertex_sharpness[5] == infinite);
+    CHECK(cut.vertex_sharpness[1] == (mode == BoundaryInterpolation::edge_only ? 0 : infinite));
+  }
+  check_holds<Loop>(mesh);
+}
+
+TEST_CASE("Two closed bodies that touch in a vertex come apart there", "[schemes][manifold]") {
+  const ControlMesh mesh =
+      faces_only({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {6, 5, 4}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 0);
+  CHECK(pieces(mesh, cut) == std::vector{2, 1, 1, 1, 1, 1, 1});
+  CHECK(cut.vertex_sharpness == std::vector<float>{infinite, 0, 0, 0, 0, 0, 0, infinite});
+  CHECK(cut.sharp_edges.empty());
+  check_holds<Loop>(mesh);
+}
+
+TEST_CASE("Neighbours of opposite winding are cut apart", "[schemes][manifold]") {
+  const ControlMesh mesh = faces_only({{0, 1, 2}, {0, 1, 3}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 1);
+  CHECK(pieces(mesh, cut) == std::vector{2, 2, 1, 1});
+  check_holds<Loop>(mesh);
+}
+
+TEST_CASE("A cut is no boundary: beside it faces keep their limit in every boundary mode", "[schemes][manifold]") {
+  // One inner face of a sheet turned over: cut along all its edges. Inner faces: 5, 6, 9, 10.
+  ControlMesh mesh = sheet("catmark", 4, 4);
+  std::reverse(mesh.face_vertices.begin() + 20, mesh.face_vertices.begin() + 24);
+  mesh.boundary = BoundaryInterpolation::none;
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 4);
+  CHECK(cut.cut_vertices == 4);
+  CHECK(cut.origin.size() == 29);
+  for (int f = 0; f < 16; ++f) {
+    CAPTURE(f);
+    CHECK((cut.has_limit[static_cast<std::size_t>(f)] != 0) == (f == 5 || f == 6 || f == 9 || f == 10));
+  }
+  check_holds<CatmullClark>(mesh);
+}
+
+TEST_CASE("Fins along a crease leave the vertices between smooth along it", "[schemes][manifold]") {
+  // Three half-planes of two quads each around the line 0-1-2: vertex 1 has two non-manifold edges, no boundary edge
+  // and 6 faces to 5 edges.
+  std::vector<std::vector<int>> faces;
+  for (int fin = 0; fin < 3; ++fin)
+    for (int j = 0; j < 2; ++j) {
+      const int outer = 3 + 3 * fin + j;
+      faces.push_back({j, j + 1, outer + 1, outer});
+    }
+  const ControlMesh mesh = faces_only(faces);
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 2);
+  CHECK(cut.cut_vertices == 3);
+  CHECK(pieces(mesh, cut) == std::vector{3, 3, 3, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+  for (std::size_t v = 0; v < cut.origin.size(); ++v) {
+    if (cut.origin[v] == 1) CHECK(cut.vertex_sharpness[v] == 0);
+    if (cut.origin[v] == 0 || cut.origin[v] == 2) CHECK(cut.vertex_sharpness[v] == infinite);
+  }
+  check_holds<CatmullClark>(mesh);
+}
+
+TEST_CASE("A face given twice is cut off from itself", "[schemes][manifold]") {
+  const ControlMesh mesh = faces_only({{0, 1, 2}, {0, 1, 2}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 3);
+  CHECK(pieces(mesh, cut) == std::vector{2, 2, 2});
+  check_holds<Loop>(mesh);
+}
+
+TEST_CASE("A vertex repeated in a row is one vertex with a sharp edge of no length", "[schemes][manifold]") {
+  const ControlMesh mesh = faces_only({{0, 1, 1, 2}, {2, 1, 3, 4}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 1);
+  CHECK(cut.cut_vertices == 0);
+  CHECK(cut.face_vertices == mesh.face_vertices);
+  CHECK(cut.edge_sharpness(1, 1) == infinite);
+  CHECK(cut.edge_sharpness(1, 2) == 0);
+  CHECK(cut.has_limit == std::vector<char>{1, 1});
+  check_holds<CatmullClark>(mesh);
+}
+
+TEST_CASE("A vertex repeated across a face is cut; a face without three steps has no limit", "[schemes][manifold]") {
+  const ControlMesh mesh = faces_only({{0, 1, 0, 2}, {3, 4, 4}, {5, 6, 7}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 4);  // 0-1, 0-2 and 3-4, each with one face twice, and 4-4
+  CHECK(pieces(mesh, cut)[0] == 2);
+  CHECK(cut.has_limit == std::vector<char>{1, 0, 1});
+  check_holds<CatmullClark>(mesh);
+}
+
+}  // namespace shaolin
