@@ -1,0 +1,262 @@
+// The exact finish on patches made by hand, in a ray's frame: x and y vanish on the ray, z is the distance along it.
+#include "intersect/exact_finish.h"
+
+#include <functional>
+#include <optional>
+
+#include "schemes/bezier_quad.h"
+#include "schemes/bezier_triangle.h"
+#include "tests/catch.h"
+#include "tests/random.h"
+
+namespace shaolin {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Coordinates here are below 8: some 64 u of that.
+constexpr double error = 1e-13;
+
+struct Interval {
+  double near = 0, far = infinity;
+  bool far_is_hit = false;
+};
+
+template <class Bezier>
+std::optional<PatchHit> solve(const Bezier& patch, const Interval& interval = {}) {
+  RayCounters counters;
+  ExactFinish<Bezier> finish(error, interval.near, interval.far, interval.far_is_hit, counters);
+  if (!finish.solve(Net(patch))) return {};
+  return finish.hit();
+}
+
+/// A patch of points place(u, v), which is exact for a place that is linear in u and in v.
+BezierQuad quad(const std::function<Vec3(double, double)>& place) {
+  BezierQuad patch;
+  for (std::size_t j = 0; j < 4; ++j)
+    for (std::size_t i = 0; i < 4; ++i)
+      patch.b[4 * j + i] = place(static_cast<double>(i) / 3, static_cast<double>(j) / 3);
+  return patch;
+}
+BezierTriangle triangle(const std::function<Vec3(double, double)>& place) {
+  BezierTriangle patch;
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i + j <= 4; ++i) patch.b[BezierTriangle::index(i, j)] = place(i / 4.0, j / 4.0);
+  return patch;
+}
+
+/// Adds (c - (2 u - 1)^2) to x, exactly: the Bezier points of (2 u - 1)^2 are 1, -1/3, -1/3, 1 in a cubic.
+BezierQuad folded(double c, double slope) {
+  constexpr std::array<double, 4> square{1, -1.0 / 3, -1.0 / 3, 1};
+  BezierQuad patch = quad([&](double u, double v) { return Vec3(0, v - 0.375, 3 + slope * u); });
+  for (std::size_t k = 0; k < 16; ++k) patch.b[k].x() = square[k % 4] - c;
+  return patch;
+}
+
+template <class Bezier>
+Bezier random_patch(Random& random, double wildness) {
+  const Vec3 shift = 0.5 * random.point() - Vec3(0.4, 0.4, -4);
+  const auto place = [&](double u, double v) -> Vec3 { return Vec3(u, v, 0) + shift + wildness * random.point(); };
+  if constexpr (std::is_same_v<Bezier, BezierQuad>)
+    return quad(place);
+  else
+    return triangle(place);
+}
+
+/// All zeros that Newton's method reaches from a grid of starts, outside steps allowed: the slow, independent answer.
+/// Empty if a zero is too near to the border or to a fold to be sure of it.
+template <class Bezier>
+std::optional<std::vector<double>> zeros(const Bezier& patch) {
+  using D = typename Bezier::DomainType;
+  std::vector<double> distances;
+  constexpr int grid = 24;
+  for (int i = 0; i <= grid; ++i)
+    for (int j = 0; j <= grid; ++j) {
+      Parameter at(static_cast<double>(i) / grid, static_cast<double>(j) / grid);
+      if (!D::contains(at)) continue;
+      double determinant = 0;
+      for (int step = 0; step < 40; ++step) {
+        const Derivatives d = patch.derivatives(at);
+        const Vec3 p = patch.position(at);
+        determinant = d.du.x() * d.dv.y() - d.du.y() * d.dv.x();
+        at -= Parameter(d.dv.y() * p.x() - d.dv.x() * p.y(), d.du.x() * p.y() - d.du.y() * p.x()) / determinant;
+        if (!at.allFinite() || at.norm() > 3) break;
+      }
+      if (!at.allFinite() || at.norm() > 3) continue;
+      const Vec3 p = patch.position(at);
+      if (p.head<2>().norm() > 1e-12) continue;
+      const double outside = (at - D::nearest(at)).norm();
+      const double border = D::corner_count == 3 ? std::min({at.x(), at.y(), 1 - at.x() - at.y()})
+                                                 : std::min({at.x(), at.y(), 1 - at.x(), 1 - at.y()});
+      if (outside > 1e-6) continue;
+      if (border < 1e-6 || std::abs(determinant) < 1e-3) return {};
+      distances.push_back(p.z());
+    }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("The finish meets planes where they are met", "[intersect][finish]", BezierQuad, BezierTriangle) {
+  Random random(51);
+  for (int i = 0; i < 500; ++i) {
+    Parameter at(random.uniform(), random.uniform());
+    const Vec3 du = random.point(), dv = random.point();
+    if (std::abs(du.x() * dv.y() - du.y() * dv.x()) < 0.01) continue;
+    if (!TestType::DomainType::contains(at)) at = Parameter(1, 1) - at;
+    const auto place = [&](double u, double v) -> Vec3 {
+      return Vec3(0, 0, 5) + (u - at.x()) * du + (v - at.y()) * dv;
+    };
+    TestType patch;
+    if constexpr (std::is_same_v<TestType, BezierQuad>)
+      patch = quad(place);
+    else
+      patch = triangle(place);
+    const auto hit = solve(patch);
+    REQUIRE(hit);
+    CHECK((hit->at - at).norm() < 1e-11);
+    CHECK(std::abs(hit->distance - 5) < 1e-11);
+    for (Vec3& p : patch.b) p.x() += 4;  // no point is farther from the middle than sqrt(3) times 2
+    CHECK(!solve(patch));
+  }
+}
+
+TEMPLATE_TEST_CASE("The interval's ends count, a hit elsewhere must be beaten", "[intersect][finish]", BezierQuad,
+                   BezierTriangle) {
+  const auto place = [](double u, double v) { return Vec3(u - 0.25, v - 0.25, 5); };
+  TestType patch;
+  if constexpr (std::is_same_v<TestType, BezierQuad>)
+    patch = quad(place);
+  else
+    patch = triangle(place);
+  CHECK(solve(patch, {5, 5}));
+  CHECK(solve(patch, {0, 5}));
+  CHECK(solve(patch, {-infinity, infinity}));
+  CHECK(!solve(patch, {5 + 1e-11, infinity}));
+  CHECK(!solve(patch, {0, 5 - 1e-11}));
+  CHECK(!solve(patch, {0, 5, true}));
+  CHECK(solve(patch, {0, 5 + 1e-11, true}));
+}
+
+TEST_CASE("A bilinear patch is met where its rulings say", "[intersect][finish]") {
+  // x = u - a, y = v - b, z = 3 + u v: the hit is at (a, b), 3 + a b.
+  for (const double a : {0.0, 0.125, 0.3, 1.0})
+    for (const double b : {0.0, 0.7, 0.75, 1.0}) {
+      const auto hit = solve(quad([&](double u, double v) { return Vec3(u - a, v - b, 3 + u * v); }));
+      REQUIRE(hit);
+      CHECK((hit->at - Parameter(a, b)).norm() < 1e-12);
+      CHECK(std::abs(hit->distance - (3 + a * b)) < 1e-12);
+    }
+  // Two rulings through the ray: x = (u - v), y = u v - 1/4 vanish at (1/2, 1/2) only; x = u + v - 1, y = u v - 3/16 at
+  // (1/4, 3/4) and (3/4, 1/4).
+  const auto one = solve(quad([](double u, double v) { return Vec3(u - v, u * v - 0.25, 3); }));
+  REQUIRE(one);
+  CHECK((one->at - Parameter(0.5, 0.5)).norm() < 1e-12);
+  const auto two = solve(quad([](double u, double v) { return Vec3(u + v - 1, u * v - 0.1875, 3 - u); }));
+  REQUIRE(two);
+  CHECK((two->at - Parameter(0.75, 0.25)).norm() < 1e-12);
+  CHECK(std::abs(two->distance - 2.25) < 1e-12);
+}
+
+TEST_CASE("Of two zeros of a folded patch the nearer counts", "[intersect][finish]") {
+  for (const double c : {0.5, 0.25, 1e-2, 1e-4, 1e-8})
+    for (const double slope : {1.0, -1.0}) {
+      CAPTURE(c, slope);
+      const double u = 0.5 * (1 - slope * std::sqrt(c));  // the zeros are (1 -+ sqrt(c)) / 2
+      const auto hit = solve(folded(c, slope));
+      REQUIRE(hit);
+      // Near a fold, an error e of x moves u by e / (4 sqrt(c)).
+      const double allowed = 1e-12 + error / std::sqrt(c);
+      CHECK(std::abs(hit->at.x() - u) < allowed);
+      CHECK(std::abs(hit->at.y() - 0.375) < 1e-12);
+      CHECK(std::abs(hit->distance - (3 + slope * u)) < allowed);
+      const double farther = 3 + slope * (1 - u), between = 0.5 * (hit->distance + farther);
+      const auto second = solve(folded(c, slope), {between, infinity});
+      REQUIRE(second);
+      CHECK(std::abs(second->distance - farther) < allowed);
+      CHECK(!solve(folded(c, slope), {farther + 2 * allowed, infinity}));
+    }
+}
+
+TEST_CASE("A ray that touches a fold hits, one beside it misses", "[intersect][finish]") {
+  const auto touching = solve(folded(0, 1));
+  REQUIRE(touching);
+  CHECK(std::abs(touching->at.x() - 0.5) < 1e-6);  // the root of the error
+  CHECK(std::abs(touching->distance - 3.5) < 1e-6);
+  CHECK(solve(folded(-0.5 * error, 1)));  // rounding alone could have moved the fold off the ray
+  CHECK(!solve(folded(-10 * error, 1)));
+  CHECK(!solve(folded(-1e-6, 1)));
+  CHECK(!solve(folded(-0.5, 1)));
+}
+
+TEMPLATE_TEST_CASE("A ray through a corner or a side hits", "[intersect][finish]", BezierQuad, BezierTriangle) {
+  Random random(52);
+  using D = typename TestType::DomainType;
+  for (int i = 0; i < 300; ++i) {
+    const auto patch = random_patch<TestType>(random, 0.05);
+    for (std::size_t k = 0; k < D::corners.size(); ++k) {
+      const auto &a = D::corners[k], &b = D::corners[(k + 1) % D::corners.size()];
+      for (const double along : {0.0, 1e-9, 0.5, random.uniform()}) {
+        const Parameter at(a[0] + along * (b[0] - a[0]), a[1] + along * (b[1] - a[1]));
+        const Vec3 target = patch.position(at);
+        TestType moved = patch;
+        for (Vec3& p : moved.b) p -= Vec3(target.x(), target.y(), 0);
+        const auto hit = solve(moved);
+        CAPTURE(i, k, along);
+        REQUIRE(hit);
+        CHECK(D::contains(hit->at));
+        CHECK(std::abs(hit->distance - target.z()) < 1e-11);
+      }
+    }
+  }
+}
+
+TEMPLATE_TEST_CASE("Of patches that share a side, one takes the ray through it", "[intersect][finish]", BezierQuad,
+                   BezierTriangle) {
+  Random random(53);
+  for (int i = 0; i < 300; ++i) {
+    const auto patch = random_patch<TestType>(random, 0.05);
+    // u = 1/2 is a side of two quarters, of a quad's and of a triangle's.
+    const double along = random.uniform(0.01, 0.49);
+    const Vec3 target = patch.position({0.5, along});
+    TestType moved = patch;
+    for (Vec3& p : moved.b) p -= Vec3(target.x(), target.y(), 0);
+    int met = 0;
+    for (const TestType& quarter : moved.split()) {
+      const auto hit = solve(quarter);
+      met += hit.has_value();
+      if (hit) CHECK(std::abs(hit->distance - target.z()) < 1e-11);
+    }
+    CHECK(met >= 1);
+    CHECK(met <= 2);
+  }
+}
+
+TEMPLATE_TEST_CASE("The finish agrees with Newton's method from everywhere", "[intersect][finish]", BezierQuad,
+                   BezierTriangle) {
+  Random random(54);
+  int undecided = 0, none = 0, several = 0;
+  constexpr int count = 600;
+  for (int i = 0; i < count; ++i) {
+    const auto patch = random_patch<TestType>(random, 1);
+    const auto expected = zeros(patch);
+    if (!expected) {
+      ++undecided;
+      continue;
+    }
+    const auto hit = solve(patch);
+    CAPTURE(i);
+    REQUIRE(hit.has_value() == !expected->empty());
+    none += expected->empty();
+    if (expected->empty()) continue;
+    CHECK(std::abs(hit->distance - expected->front()) < 1e-9);
+    several += expected->back() - expected->front() > 1e-6;
+    CHECK(patch.position(hit->at).template head<2>().norm() < 1e-12);
+  }
+  CHECK(undecided < count / 50);
+  CHECK(none > count / 20);
+  CHECK(several > count / 30);
+}
+
+}  // namespace shaolin
