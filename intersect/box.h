@@ -38,21 +38,31 @@ struct Box {
 /// A ray prepared for traversal: unit direction, distances in place of t.
 struct TraversalRay {
   Vec3 origin, direction, inverse;
-  double length;  ///< of the given direction: distance = t * length
   double near, far;
   std::array<std::uint8_t, 3> entered_at;  ///< per axis: 0 if the ray comes to a box's lower bound first, 1 if upper
 
   explicit TraversalRay(const Ray& ray) : origin(ray.origin) {
-    // Scale first: the square of a tiny or huge direction would underflow or overflow.
-    const double scale = ray.direction.cwiseAbs().maxCoeff();
-    const Vec3 scaled = ray.direction / scale;
-    length = scaled.norm() * scale;
+    // Scale first, by a power of two: the square of a tiny or huge direction would underflow or overflow, and so may
+    // the length itself.
+    scale_ = std::scalbn(1.0, std::ilogb(ray.direction.cwiseAbs().maxCoeff()));
+    const Vec3 scaled = ray.direction / scale_;
+    scaled_length_ = scaled.norm();
     direction = scaled.normalized();
+    // A component that has no inverse moves the ray by less than 1e-8 on the longest way that doubles can tell.
+    direction = (direction.array().abs() < std::numeric_limits<double>::min()).select(0.0, direction);
     inverse = direction.cwiseInverse();
     for (std::size_t axis = 0; axis < 3; ++axis) entered_at[axis] = inverse[static_cast<Eigen::Index>(axis)] < 0;
-    near = ray.tmin * length;
-    far = ray.tmax * length;
+    near = ray.tmin * scaled_length_ * scale_;
+    far = ray.tmax * scaled_length_ * scale_;
   }
+
+  /// A distance in units of the given direction's length.
+  double t(double distance) const { return distance / scaled_length_ / scale_; }
+  /// The length of the given direction; infinite where it overflows.
+  double length() const { return scaled_length_ * scale_; }
+
+ private:
+  double scale_, scaled_length_;
 };
 
 /// Four boxes side by side, so that one pass of vector instructions tests them all.

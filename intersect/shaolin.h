@@ -154,12 +154,14 @@ auto ShaoLin<S, Finish>::start_patch(int primitive) const -> const StartPatch& {
   const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
   Patch<S> patch = surface_.patch(face, sub);
   const Vec3 normal = plane_normal(patch);
+  TreeTotals made_totals;  // counted if no other thread is first
   std::unique_ptr<StartPatch> made(
-      new StartPatch{Node(std::move(patch), surface_.splits_by_corner(face), totals_), normal});
+      new StartPatch{Node(std::move(patch), surface_.splits_by_corner(face), made_totals), normal});
   made->box.set(0, made->root.box());
   StartPatch* expected = nullptr;
   if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-  totals_.bytes += sizeof(StartPatch) + made->root.own_bytes();
+  totals_.bytes += made_totals.bytes + sizeof(StartPatch) + made->root.own_bytes();
+  totals_.patches_split += made_totals.patches_split;
   ++faces_touched_;
   return *made.release();
 }
@@ -198,7 +200,7 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
   if (!found.node) return {};
   const Parameter at = Domain<S::face_kind>::nearest(found.node->to_root(found.hit.at));
   Hit hit;
-  hit.t = std::clamp(found.hit.distance / traversal.length, ray.tmin, ray.tmax);
+  hit.t = std::clamp(traversal.t(found.hit.distance), ray.tmin, ray.tmax);
   hit.at = {found.face, found.sub, at.x(), at.y()};
   hit.level = found.node->level();
   hit.sample = sample(found, hit.at);

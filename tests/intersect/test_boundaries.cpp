@@ -13,11 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-ControlMesh with_boundary(ControlMesh mesh, BoundaryInterpolation mode) {
-  mesh.boundary = mode;
-  return mesh;
-}
-
 /// True if the ray straight down at (x, y) hits; the plane z = 0 is met at t = 1.
 bool down_hits(const Scene& scene, double x, double y) {
   const Ray ray{{x, y, 1}, {0, 0, -1}, 0, infinity};

@@ -140,4 +140,10 @@ TEST_CASE("A direction may be as short or as long as doubles are", "[intersect][
   CHECK(scene.intersect(ray));
 }
 
+TEST_CASE("A direction longer than doubles can say still hits", "[intersect][scene]") {
+  const Scene scene(sheet("catmark", 4, 4), "catmark");  // the plane z = 0 over [0, 4]^2
+  const Vec3 direction = Vec3(0.3, 0.2, -1) * std::numeric_limits<double>::max();
+  CHECK(scene.intersect({{1.3, 2.6, 2}, direction, 0, std::numeric_limits<double>::infinity()}));
+}
+
 }  // namespace shaolin
