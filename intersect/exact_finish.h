@@ -6,6 +6,7 @@
 
 #include "../schemes/domain.h"
 #include "counters.h"
+#include "flatten.h"
 #include "net.h"
 
 namespace shaolin {
@@ -93,9 +94,8 @@ void ExactFinish<Bezier>::accept(const Parameter& at, double distance, const Par
   found_ = has_hit_ = true;
 }
 
-// flatten: in a unit this large GCC leaves even Eigen's one-line expressions as calls; a quarter of a picture's time.
 template <class Bezier>
-[[gnu::flatten]] void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, const Parameter& scale) {
+SHAOLIN_FLATTEN void ExactFinish<Bezier>::visit(const Net& cell, const Parameter& origin, const Parameter& scale) {
   ++counters_.cells;
   ++cells_;
   const Range x(cell.x);
@@ -196,8 +196,8 @@ double ExactFinish<Bezier>::contraction(const std::array<double, 16>& x, const s
 /// within the error of the ray is a zero of g moved by no more than |flattening| error, which widens both bounds by 1 /
 /// (1 - q) of that.
 template <class Bezier>
-[[gnu::flatten]] auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction,
-                                                  PatchHit& hit) -> Verdict {
+SHAOLIN_FLATTEN auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction,
+                                                 PatchHit& hit) -> Verdict {
   const double slack = error_ * flattening.norm() * 1.5 / (1 - contraction);
   Parameter at = D::centre();
   constexpr int most_steps = 12;

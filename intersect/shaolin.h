@@ -11,6 +11,7 @@
 #include "corner_bounds.h"
 #include "counters.h"
 #include "exact_finish.h"
+#include "flatten.h"
 #include "patch_tree.h"
 #include "ray_frame.h"
 
@@ -210,7 +211,7 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
 /// The surface at a hit: from the polynomial where it is as good as evaluation from the control face, that is, unless
 /// the piece is so small that differences of its absolute coordinates lose the normal's digits.
 template <Scheme S, template <class> class Finish>
-[[gnu::flatten]] LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
+SHAOLIN_FLATTEN LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
   const bool regular = found.node->is_regular();
   if (!regular || found.node->level() > deepest_absolute) {

@@ -101,8 +101,10 @@ std::optional<LimitSample> evaluate_corner(const Patch<S>& patch, int k) {
 /// Near an irregular corner the patch shrinks by about half a level, so differences of control points would lose all
 /// their digits. Every few levels the corner's limit point is therefore subtracted from the control points (masks are
 /// affine) and kept in `anchor`, and the points are magnified by powers of two. Then positions are exact to an ulp, and
-/// normals and derivatives keep their precision however deep the descent. It ends: a parameter other than a corner lies
-/// 2^-1074 from it at least.
+/// first derivatives keep their precision however deep the descent; second ones carry some 50 u (size of the patch) /
+/// (distance from the corner). So do normals, unless the surface flattens to a line there (around a rounded corner of
+/// one face, or a spike): at a distance d in parameters such a normal is good to u / d. It ends: a parameter other than
+/// a corner lies 2^-1074 from it at least.
 template <Scheme S>
 LimitSample evaluate(Patch<S> patch, Parameter at) {
   using D = Domain<S::face_kind>;

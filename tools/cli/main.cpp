@@ -10,6 +10,7 @@
 #include "tools/cli/info.h"
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
+#include "tools/cli/unfinished_files.h"
 #include "tools/cli/validate.h"
 
 namespace shaolin {
@@ -60,4 +61,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 }  // namespace shaolin
 
-int main(int argc, char** argv) { return shaolin::parse_and_run(argc, argv); }
+int main(int argc, char** argv) {
+  shaolin::remove_unfinished_files_when_stopped();
+  return shaolin::parse_and_run(argc, argv);
+}

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "schemes/errors.h"
+#include "tools/cli/unfinished_files.h"
 
 namespace shaolin {
 
@@ -30,6 +31,7 @@ fs::path make_temporary(const fs::path& target, const fs::path& name) {
     // "x" creates the file or fails, in one step.
     if (std::FILE* const file = std::fopen(candidate.c_str(), "wx")) {
       std::fclose(file);
+      note_unfinished_file(candidate);
       return candidate;
     }
     if (errno != EEXIST) fail(name, std::generic_category().message(errno));
@@ -61,8 +63,10 @@ OutputFile::OutputFile(fs::path target) : name_(std::move(target)), target_(name
 }
 
 OutputFile::~OutputFile() {
+  if (temporary_ == target_) return;
   std::error_code ignored;
-  if (temporary_ != target_) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
+  forget_unfinished_file(temporary_);
 }
 
 void OutputFile::commit() {
@@ -70,6 +74,7 @@ void OutputFile::commit() {
   std::error_code error;
   fs::rename(temporary_, target_, error);
   if (error) fail(name_, error.message());
+  forget_unfinished_file(temporary_);
   temporary_ = target_;
 }
 

@@ -5,7 +5,8 @@
 namespace shaolin {
 
 /// A temporary file beside the target, with the target's extension (image libraries look at it), that takes the
-/// target's place on commit(). Without commit() the destructor removes it and the target stays as it was.
+/// target's place on commit(). Without commit() the destructor removes it and the target stays as it was; so does a
+/// signal that ends the program (unfinished_files.h).
 ///
 /// A target that exists and is no regular file (/dev/stdout, a pipe) is written directly, since it cannot be replaced.
 class OutputFile {

@@ -1,0 +1,18 @@
+#pragma once
+/// Files that vanish if the program is stopped before they are finished.
+#include <string>
+
+namespace shaolin {
+
+/// From now on SIGINT, SIGTERM and SIGHUP remove the noted files before they end the process. Signals that whoever
+/// started the process had ignored stay ignored.
+void remove_unfinished_files_when_stopped();
+
+/// Notes a file that is being written. The first eight at a time, with paths of up to 4095 bytes, are kept in mind: a
+/// signal handler cannot allocate.
+void note_unfinished_file(const std::string& path);
+
+/// Forgets a noted file: it is finished, or gone.
+void forget_unfinished_file(const std::string& path);
+
+}  // namespace shaolin
