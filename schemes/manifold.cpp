@@ -19,8 +19,8 @@ struct Side {
 
 class Cutter {
  public:
-  explicit Cutter(const ControlMesh& mesh) : mesh_(mesh), pieces_(mesh.face_vertices.size()) {
-    std::iota(pieces_.begin(), pieces_.end(), 0);
+  explicit Cutter(const ControlMesh& mesh)
+      : mesh_(mesh), alone_(static_cast<std::size_t>(mesh.face_count()), 0), pieces_(mesh.face_vertices.size()) {
     collect_sides();
   }
 
@@ -31,6 +31,7 @@ class Cutter {
   bool is_manifold(std::span<const Side> edge) const;
   void inspect(std::span<const Side> edge);
   void join_fans(std::span<const Side> edge);
+  bool isolate_faces();
   int piece(int corner);
   void join(int a, int b) { pieces_[static_cast<std::size_t>(piece(a))] = piece(b); }
   void number_vertices(ManifoldMesh& result);
@@ -58,6 +59,7 @@ class Cutter {
 
   const ControlMesh& mesh_;
   std::vector<Side> sides_;
+  std::vector<char> alone_;  ///< faces cut off all around
   std::vector<int> pieces_;  ///< union-find over corners: the fan that a corner belongs to
   std::vector<Counts> counts_;
   std::vector<int> fans_;  ///< fans per input vertex
@@ -83,7 +85,9 @@ void Cutter::collect_sides() {
 
 bool Cutter::is_manifold(std::span<const Side> edge) const {
   if (edge[0].low == edge[0].high || edge.size() > 2) return false;
-  return edge.size() == 1 || (edge[0].face != edge[1].face && edge[0].forward != edge[1].forward);
+  if (edge.size() == 1) return true;
+  const auto alone = [&](const Side& side) { return alone_[static_cast<std::size_t>(side.face)] != 0; };
+  return edge[0].face != edge[1].face && edge[0].forward != edge[1].forward && !alone(edge[0]) && !alone(edge[1]);
 }
 
 void Cutter::inspect(std::span<const Side> edge) {
@@ -127,11 +131,34 @@ void Cutter::join_fans(std::span<const Side> edge) {
   }
 }
 
+/// Cuts every face off that comes twice, at places apart, to one fan: half-edges cannot hold it. (It has an edge folded
+/// onto itself, and neighbours that close the fan.) True if there is a new one; then the fans are to be joined anew.
+bool Cutter::isolate_faces() {
+  bool found = false;
+  std::vector<int> fans;
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const std::span<const int> v = mesh_.face(f);
+    fans.clear();
+    for (std::size_t i = 0; i < v.size(); ++i)
+      if (v[i] != v[(i + 1) % v.size()])
+        fans.push_back(piece(mesh_.face_offsets[static_cast<std::size_t>(f)] + static_cast<int>(i)));
+    std::sort(fans.begin(), fans.end());
+    char& alone = alone_[static_cast<std::size_t>(f)];
+    if (alone || std::adjacent_find(fans.begin(), fans.end()) == fans.end()) continue;
+    alone = 1;
+    found = true;
+  }
+  return found;
+}
+
 ManifoldMesh Cutter::cut() {
   ManifoldMesh result;
+  do {
+    std::iota(pieces_.begin(), pieces_.end(), 0);
+    visit_edges([&](std::span<const Side> edge) { join_fans(edge); });
+  } while (isolate_faces());
   visit_edges([&](std::span<const Side> edge) {
     inspect(edge);
-    join_fans(edge);
     result.cut_edges += !is_manifold(edge);
   });
   for (const int vertex : mesh_.face_vertices) ++counts_[static_cast<std::size_t>(vertex)].faces;

@@ -173,4 +173,24 @@ TEST_CASE("A vertex repeated across a face is cut; a face without three steps ha
   check_holds<CatmullClark>(mesh);
 }
 
+TEST_CASE("A face that its neighbours bring back to a vertex is cut off", "[schemes][manifold]") {
+  // Edge 0-1 is folded within the first face, and the second closes the fan of its two corners at 1.
+  const ControlMesh mesh = faces_only({{0, 1, 3, 2, 1}, {1, 2, 3}});
+  const ManifoldMesh cut = cut_to_manifold(mesh);
+  CHECK(cut.cut_edges == 4);
+  CHECK(pieces(mesh, cut) == std::vector{1, 3, 2, 2});
+  check_holds<CatmullClark>(mesh);
+}
+
+TEST_CASE("Any soup of faces can be held, vertices repeated or not", "[schemes][manifold]") {
+  Random random(11);
+  for (int round = 0; round < 500; ++round) {
+    CAPTURE(round);
+    std::vector<std::vector<int>> faces(static_cast<std::size_t>(1 + random.index(8)));
+    for (std::vector<int>& face : faces)
+      for (int i = 3 + random.index(4); i > 0; --i) face.push_back(random.index(9));
+    check_holds<CatmullClark>(faces_only(faces));
+  }
+}
+
 }  // namespace shaolin
