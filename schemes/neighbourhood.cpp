@@ -62,7 +62,7 @@ void drop_beyond_creases(Neighbourhood& neighbourhood) {
   std::unordered_map<int, int> repeats;
   for (int k = 0; k < face.size(); ++k) ++repeats[face.vertex(k)];
   for (int k = 0; k < face.size(); ++k) {
-    // A vertex that the face repeats has one ring for all its corners, so that their children share their rings.
+    // Corners of a vertex that the face repeats keep their rings, so that children beside each other share theirs.
     if (repeats[face.vertex(k)] > 1) continue;
     Ring& ring = neighbourhood.rings[static_cast<std::size_t>(k)];
     const std::vector<float> sharpness = ring.spoke_sharpness();
@@ -202,6 +202,8 @@ FaceSides Refinement::child_face(int k) {
 }
 
 Neighbourhood Refinement::child(int k, int radius) {
+  // A vertex that the face repeats has a ring for each of its corners.
+  if (k < parent_.face.size()) rings_[parent_.face.vertex(k)] = &parent_.rings[static_cast<std::size_t>(k)];
   Neighbourhood result;
   result.face = child_face(k);
   std::vector<int> inner;
