@@ -178,4 +178,15 @@ TEST_CASE("the default camera frames the model", "[tools][cli]") {
   }
 }
 
+TEST_CASE("A model without a limit surface needs a camera", "[tools][cli][render]") {
+  const Folder folder;
+  const std::string model = folder.write("hole.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nt hole 1/0/0 0\n");
+  const Outcome without = folder.run({"render", model, "-o", folder / "a.exr", "--size", "8x8"});
+  CHECK(without.status == 3);
+  CHECK(without.text.find("no face has a limit surface") != std::string::npos);
+  CHECK(folder.list() == std::set<std::string>{"hole.obj"});
+  CHECK(folder.run({"render", model, "-o", folder / "a.exr", "--size", "8x8", "--camera", "0,0,5,0,0,0,30"}).status ==
+        0);
+}
+
 }  // namespace shaolin::test

@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "schemes/errors.h"
 #include "tools/cli/exr.h"
 #include "tools/cli/image.h"
 #include "tools/cli/level_map.h"
@@ -111,6 +112,8 @@ void render_in_arena(const RenderOptions& options) {
   stats.build_seconds = stopwatch.lap();
 
   OutputFiles files(options);
+  if (!options.camera && scene.statistics().faces == 0)
+    throw InputError("no face has a limit surface, so that there is nothing to frame; expected --camera", stats.model);
   const View view(options.camera ? *options.camera : default_camera(scene.bounds(), options.size), options.size);
   const Image image = render_image(scene, view);
   stats.render_seconds = stopwatch.lap();
