@@ -48,7 +48,7 @@ struct TraversalRay {
     const Vec3 scaled = ray.direction / scale_;
     scaled_length_ = scaled.norm();
     direction = scaled.normalized();
-    // A component that has no inverse moves the ray by less than 1e-8 on the longest way that doubles can tell.
+    // A component that has no inverse moves the ray by 2e-308 of its way: far below the rounding of any coordinate.
     direction = (direction.array().abs() < std::numeric_limits<double>::min()).select(0.0, direction);
     inverse = direction.cwiseInverse();
     for (std::size_t axis = 0; axis < 3; ++axis) entered_at[axis] = inverse[static_cast<Eigen::Index>(axis)] < 0;

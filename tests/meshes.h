@@ -49,6 +49,16 @@ inline ControlMesh poles(const std::string& scheme, int n) {
   return mesh_of(points, faces);
 }
 
+/// A cell of a grid: one quad, or two triangles along the diagonal a-c.
+inline void add_cell(std::vector<std::vector<int>>& faces, const std::string& scheme, int a, int b, int c, int d) {
+  if (scheme == "catmark") {
+    faces.push_back({a, b, c, d});
+  } else {
+    faces.push_back({a, b, c});
+    faces.push_back({a, c, d});
+  }
+}
+
 /// An open sheet of columns x rows quads (or twice as many triangles), vertex j (columns + 1) + i at (i, j, 0).
 inline ControlMesh sheet(const std::string& scheme, int columns, int rows) {
   std::vector<Vec3> points;
@@ -58,12 +68,7 @@ inline ControlMesh sheet(const std::string& scheme, int columns, int rows) {
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const int a = j * (columns + 1) + i, b = a + 1, d = a + columns + 1, c = d + 1;
-      if (scheme == "catmark") {
-        faces.push_back({a, b, c, d});
-      } else {
-        faces.push_back({a, b, c});
-        faces.push_back({a, c, d});
-      }
+      add_cell(faces, scheme, a, b, c, d);
     }
   return mesh_of(points, faces);
 }
@@ -81,12 +86,7 @@ inline ControlMesh torus(const std::string& scheme, int around, int along) {
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < around; ++i) {
       const int a = at(i, j), b = at(i, j + 1), c = at(i + 1, j + 1), d = at(i + 1, j);
-      if (scheme == "catmark") {
-        faces.push_back({a, b, c, d});
-      } else {
-        faces.push_back({a, b, c});
-        faces.push_back({a, c, d});
-      }
+      add_cell(faces, scheme, a, b, c, d);
     }
   return mesh_of(points, faces);
 }

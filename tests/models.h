@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ inline const std::vector<Model>& all_models() {
     std::vector<Model> result;
     detail::add_folder(result, "SHAOLIN_DATA", false);
     detail::add_folder(result, "SHAOLIN_SHAPES", true);
+    if (result.empty()) throw std::logic_error("$SHAOLIN_DATA holds no models; a test without any could not fail");
     return result;
   }();
   return models;
