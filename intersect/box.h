@@ -27,6 +27,12 @@ struct Box {
     lower = lower.cwiseMin(box.lower);
     upper = upper.cwiseMax(box.upper);
   }
+  /// Each side moved out by that share of the box's extent.
+  Box expanded(double share) const {
+    if (share == 0) return *this;
+    const Vec3 margin = share * (upper - lower);
+    return {lower - margin, upper + margin};
+  }
   Vec3 centre() const { return 0.5 * lower + 0.5 * upper; }
   double half_area() const {
     const Vec3 e = upper - lower;

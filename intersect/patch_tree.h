@@ -16,7 +16,8 @@ struct TreeTotals {
 };
 
 /// A patch with the affine map of its parameters to those of the tree's root. Regular patches hold their polynomial's
-/// Bezier points, irregular ones a configuration and control points; either way the limit lies in the points' hull.
+/// Bezier points, irregular ones a configuration and control points; either way the limit lies in the points' hull
+/// (irregular ones: expanded as their configuration says).
 /// Whether a patch is a leaf depends on the patch alone, so the tree that rays grow is the same in whatever order they
 /// come.
 template <Scheme S>
@@ -89,19 +90,20 @@ class PatchNode {
       return set(patch.regular());
     }
     irregular_ = std::make_unique<Patch<S>>(std::move(patch));
-    bound(irregular_->points);
+    bound(irregular_->points, irregular_->configuration->hull_expansion());
   }
 
   void set(const Regular& piece) {
     regular_ = std::make_unique<Net>(piece);
-    bound(piece.b);
+    bound(piece.b, 0);
     leaf_ = level_ - regular_level_ >= deepest_polynomial_split || is_flat(piece);
   }
 
   /// The control points carry the roundings that RayFrame::error bounds; a box test must not be stricter.
   template <class Points>
-  void bound(const Points& points) {
+  void bound(const Points& points, double expansion) {
     for (const Vec3& point : points) box_.add(point);
+    box_ = box_.expanded(expansion);
     const double slack = 160 * unit_roundoff * box_.largest_coordinate();
     box_.lower.array() -= slack;
     box_.upper.array() += slack;

@@ -2,7 +2,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "../schemes/errors.h"
+#include "../schemes/builtin.h"
 #include "shaolin.h"
 
 namespace shaolin {
@@ -33,7 +33,7 @@ void check(const Ray& ray) {
 template <Scheme S>
 class SchemeScene final : public Scene::Implementation {
  public:
-  explicit SchemeScene(ControlMesh mesh) : surface_(std::move(mesh)), shaolin_(surface_) {}
+  SchemeScene(ControlMesh mesh, const S& scheme) : surface_(std::move(mesh), scheme), shaolin_(surface_) {}
 
   std::optional<Hit> intersect(const Ray& ray) const override {
     return counted(ray, [&](RayCounters& counters) { return shaolin_.intersect(ray, counters); });
@@ -81,8 +81,8 @@ class SchemeScene final : public Scene::Implementation {
 }  // namespace
 
 Scene::Scene(ControlMesh mesh, const std::string& scheme)
-    : implementation_(with_scheme(scheme, [&]<Scheme S>(SchemeType<S>) -> std::unique_ptr<Implementation> {
-        return std::make_unique<SchemeScene<S>>(std::move(mesh));
+    : implementation_(with_scheme(scheme, [&]<Scheme S>(const S& type) -> std::unique_ptr<Implementation> {
+        return std::make_unique<SchemeScene<S>>(std::move(mesh), type);
       })) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;

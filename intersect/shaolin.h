@@ -8,9 +8,9 @@
 
 #include "../schemes/scheme_surface.h"
 #include "bvh.h"
-#include "corner_bounds.h"
 #include "counters.h"
 #include "exact_finish.h"
+#include "face_bounds.h"
 #include "flatten.h"
 #include "patch_tree.h"
 #include "ray_frame.h"
@@ -23,7 +23,7 @@ enum class Query { closest, any };
 template <Scheme S, template <class> class Finish>
 class ShaoLin {
  public:
-  /// Bounds every face (see corner_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet.
+  /// Bounds every face (see face_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet.
   explicit ShaoLin(const SchemeSurface<S>& surface);
 
   /// The hit with the least t in [tmin, tmax]. Of hits at equal distance, the face visited first wins; the order of
@@ -116,12 +116,11 @@ class ShaoLin {
 template <Scheme S, template <class> class Finish>
 ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface) {
   const SubdivisionMesh<S>& mesh = surface.mesh();
-  const std::vector<Box> corners = corner_bounds(mesh);
+  const std::vector<Box> bounds = face_bounds(mesh);
   std::vector<Box> boxes;
   for (const int f : mesh.faces()) {
     if (!mesh.has_limit(f)) continue;
-    Box box;
-    for (const int v : mesh.face(f)) box.add(corners[static_cast<std::size_t>(v)]);
+    Box box = bounds[static_cast<std::size_t>(f)];
     const double slack = 160 * unit_roundoff * box.largest_coordinate();
     box.lower.array() -= slack;
     box.upper.array() += slack;
@@ -237,7 +236,9 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
   if (!children || node.is_tiny()) {
     ++search.counters.hull_tests;
     const Box hull =
-        node.is_regular() ? search.frame().hull(node.regular()) : search.frame().hull(node.irregular().points);
+        node.is_regular()
+            ? search.frame().hull(node.regular())
+            : search.frame().hull(node.irregular().points).expanded(node.irregular().configuration->hull_expansion());
     const Vec3 &low = hull.lower, &high = hull.upper;
     const double error = search.frame().error(node.box());
     if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;

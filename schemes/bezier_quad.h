@@ -25,6 +25,21 @@ struct BezierQuad {
     return result;
   }
 
+  /// The bilinear patch over the first four points, its corners in order (cubic by raising the degree: thirds along
+  /// each side).
+  static BezierQuad from_corners(const std::array<Vec3, spline_size>& p) {
+    BezierQuad result;
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double v = static_cast<double>(j) / 3;
+      const Vec3 first = (1 - v) * p[0] + v * p[3], last = (1 - v) * p[1] + v * p[2];
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double u = static_cast<double>(i) / 3;
+        result.b[4 * j + i] = (1 - u) * first + u * last;
+      }
+    }
+    return result;
+  }
+
   Vec3 position(const Parameter& at) const {
     const Bernstein u(at.x()), v(at.y());
     Vec3 sum = Vec3::Zero();

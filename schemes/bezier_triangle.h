@@ -33,6 +33,16 @@ struct BezierTriangle {
   /// (Mueller et al. 2003, section 4; the last from the terms u^2 v w of the box spline's basis in Stam 1999).
   static BezierTriangle from_spline(const std::array<Vec3, spline_size>& p);
 
+  /// The flat patch over the first three points, its corners in order (quartic by raising the degree: quarters along
+  /// each side; sums of exact quarters, so that neighbours agree on a shared side).
+  static BezierTriangle from_corners(const std::array<Vec3, spline_size>& p) {
+    BezierTriangle result;
+    for (int j = 0; j <= degree; ++j)
+      for (int i = 0; i + j <= degree; ++i)
+        result.b[index(i, j)] = 0.25 * (((degree - i - j) * p[0] + i * p[1]) + j * p[2]);
+    return result;
+  }
+
   Vec3 position(const Parameter& at) const {
     Net net = b;
     for (int n = degree; n > 0; --n) casteljau(net, n, at);

@@ -14,6 +14,8 @@ struct CatmullClark {
   static constexpr FaceKind face_kind = FaceKind::quad;
   static constexpr int radius = 1;
   static constexpr int regular_valence = 4;
+  static constexpr Basis basis = Basis::spline;
+  static constexpr CreaseMask crease = cubic_crease;
   using Regular = BezierQuad;
 
   /// ((n - 2) vertex + mean of neighbours + mean of new face points) / n.
@@ -24,6 +26,13 @@ struct CatmullClark {
 
   /// The mean of both ends and both new face points, not of the face points alone.
   static EdgeMask smooth_edge() { return {0.25, 0.25}; }
+
+  /// OpenSubdiv's option for smoother triangles: the new face points weigh 0.47 on a triangle's side in place of 1/4,
+  /// both sides the mean of their two weights.
+  static EdgeMask triangle_edge(int triangles) {
+    const double side = triangles == 2 ? 0.47 : 0.5 * (0.47 + 0.25);
+    return {0.5 * (1 - 2 * side), side};
+  }
 
   /// Halstead, Kass and DeRose 1993: (n^2, 4, 1) / (n (n + 5)). It holds at valence 2 as well, where OpenSubdiv takes
   /// the vertex itself, which is not the limit.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hull_expansion.h"
 #include "neighbourhood.h"
 #include "regular_layout.h"
 #include "scheme.h"
@@ -24,7 +25,7 @@ template <Scheme S>
 class Configuration {
  public:
   using RegularPatch = typename S::Regular;
-  using Layout = std::array<SplinePoint, RegularPatch::spline_size>;
+  using Layout = RegularLayout<RegularPatch>;
 
   struct Child {
     const Configuration* configuration;
@@ -34,7 +35,8 @@ class Configuration {
   Configuration(CanonicalForm form, ConfigurationTable<S>& table)
       : neighbourhood_(std::move(form.neighbourhood)),
         point_count_(static_cast<int>(form.vertices.size())),
-        layout_(regular_layout<RegularPatch>(neighbourhood_)),
+        layout_(regular_layout<RegularPatch>(table.rules().scheme.basis, neighbourhood_)),
+        hull_expansion_(shaolin::hull_expansion(table.rules(), neighbourhood_)),
         children_(static_cast<std::size_t>(child_count())),
         table_(table) {}
   ~Configuration() {
@@ -44,12 +46,16 @@ class Configuration {
   Configuration& operator=(const Configuration&) = delete;
 
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
+  const S& scheme() const { return table_.rules().scheme; }
   int point_count() const { return point_count_; }
   int corner_count() const { return neighbourhood_.face.size(); }
   int child_count() const { return S::face_kind == FaceKind::triangle ? 4 : corner_count(); }
 
-  /// Where the spline control points of a regular patch stand; empty for an irregular one.
+  /// What a regular patch is made of; empty for an irregular one.
   const std::optional<Layout>& layout() const { return layout_; }
+
+  /// The share of the control points' extent by which the limit patch may leave their hull, see hull_expansion.h.
+  double hull_expansion() const { return hull_expansion_; }
 
   /// The split: child k's configuration and the program that makes its points. Thread-safe.
   const Child& child(int k) const {
@@ -65,6 +71,7 @@ class Configuration {
   Neighbourhood neighbourhood_;
   int point_count_;
   std::optional<Layout> layout_;
+  double hull_expansion_;
   mutable std::vector<std::atomic<Child*>> children_;
   ConfigurationTable<S>& table_;
 };
@@ -73,6 +80,10 @@ class Configuration {
 template <Scheme S>
 class ConfigurationTable {
  public:
+  explicit ConfigurationTable(Rules<S> rules = {}) : rules_(std::move(rules)) {}
+
+  const Rules<S>& rules() const { return rules_; }
+
   /// The configuration of a neighbourhood, and the neighbourhood's vertices in the order of the patch's points.
   struct Match {
     const Configuration<S>* configuration;
@@ -91,12 +102,12 @@ class ConfigurationTable {
   }
 
   typename Configuration<S>::Child split(const Configuration<S>& parent, int k) {
-    Refinement refinement(parent.neighbourhood(), S::face_kind);
+    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
     Match match = this->match(refinement.child(k, S::radius));
     std::vector<RefinedVertex> wanted;
     wanted.reserve(match.vertices.size());
     for (const int vertex : match.vertices) wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
-    return {match.configuration, SplitProgram::compile<S>(parent.neighbourhood(), wanted)};
+    return {match.configuration, SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted)};
   }
 
   std::size_t size() const {
@@ -114,6 +125,7 @@ class ConfigurationTable {
     }
   };
 
+  Rules<S> rules_;
   mutable std::mutex mutex_;
   std::unordered_map<std::vector<int>, std::unique_ptr<Configuration<S>>, KeyHash> configurations_;
 };

@@ -15,39 +15,39 @@ struct LimitAtCorner {
 
 namespace detail {
 
-/// Sums a tangent mask over a ring whose faces are of the scheme's kind, starting at spoke `first`.
-inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* points, std::size_t first) {
+/// Sums a tangent mask over a ring whose faces are of the scheme's kind.
+inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* points) {
   Vec3 sum = mask.vertex * points[ring.vertex];
-  for (std::size_t i = 0; i < mask.edges.size(); ++i)
-    sum += mask.edges[i] * points[ring.spokes[(first + i) % ring.spokes.size()].end];
-  for (std::size_t i = 0; i < mask.diagonals.size(); ++i)
-    sum += mask.diagonals[i] * points[ring.faces[(first + i) % ring.faces.size()].vertex(2)];
+  for (std::size_t i = 0; i < mask.edges.size(); ++i) sum += mask.edges[i] * points[ring.spokes[i].end];
+  for (std::size_t i = 0; i < mask.diagonals.size(); ++i) sum += mask.diagonals[i] * points[ring.faces[i].vertex(2)];
   return sum;
 }
 
 template <Scheme S>
-LimitAtCorner smooth_limit(const Ring& ring, const Vec3* points) {
+LimitAtCorner smooth_limit(const S& scheme, const Ring& ring, const Vec3* points) {
   const int n = static_cast<int>(ring.spokes.size());
   std::vector<int> ends, diagonals;
   for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
-  const LimitMask mask = S::smooth_limit(n);
+  const LimitMask mask = scheme.smooth_limit(n);
   Vec3 position = mask.vertex * points[ring.vertex] + mask.edge * symmetric_sum({points, ends.data(), n});
   if (mask.diagonal != 0) {
     for (const FaceSides& face : ring.faces) diagonals.push_back(face.vertex(2));
     position += mask.diagonal * symmetric_sum({points, diagonals.data(), n});
   }
-  const Vec3 cosine = tangent(S::smooth_tangent(n, 0), ring, points, 0);
-  const Vec3 sine = tangent(S::smooth_tangent(n, n / 4.0), ring, points, 0);
+  const Vec3 cosine = tangent(scheme.smooth_tangent(n, 0), ring, points);
+  const Vec3 sine = tangent(scheme.smooth_tangent(n, n / 4.0), ring, points);
   return {position, cosine.cross(sine).normalized()};
 }
 
 /// The crease is the cubic spline through its vertices; the patch's side leaves it along the cross tangent.
 template <Scheme S>
-LimitAtCorner crease_limit(const Ring& ring, const Vec3* points, std::size_t first, int faces) {
-  const Vec3& a = points[ring.spokes[first].end];
-  const Vec3& b = points[ring.spokes[(first + static_cast<std::size_t>(faces)) % ring.spokes.size()].end];
-  const Vec3 position = CubicCrease::limit_vertex * points[ring.vertex] + CubicCrease::limit_edge * (a + b);
-  const Vec3 across = tangent(S::crease_cross_tangent(faces), ring, points, first);
+LimitAtCorner crease_limit(const S& scheme, const Ring& ring, const Vec3* points) {
+  const auto sharp = [](const Ring::Spoke& spoke) { return is_sharp(spoke.sharpness); };
+  const Vec3& a = points[std::find_if(ring.spokes.begin(), ring.spokes.end(), sharp)->end];
+  const Vec3& b = points[std::find_if(ring.spokes.rbegin(), ring.spokes.rend(), sharp)->end];
+  const Vec3 position = scheme.crease.limit_vertex * points[ring.vertex] + scheme.crease.limit_edge * (a + b);
+  if (ring.closed) return {position, {}};  // a face that repeats its vertex has both sides of the crease in its ring
+  const Vec3 across = tangent(scheme.crease_cross_tangent(static_cast<int>(ring.faces.size())), ring, points);
   return {position, (a - b).cross(across).normalized()};
 }
 
@@ -76,14 +76,15 @@ std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   for (const FaceSides& face : ring.faces)
     if (face.size() != own_size) return {};
 
+  const S& scheme = patch.configuration->scheme();
   const Vec3* points = patch.points.data();
   switch (vertex_rule(ring.sharpness, sharpness)) {
     case VertexRule::smooth:
-      return detail::smooth_limit<S>(ring, points);
+      return detail::smooth_limit(scheme, ring, points);
     case VertexRule::dart:
       return detail::limit_by_refinement(patch, k);
     case VertexRule::crease:
-      return detail::crease_limit<S>(ring, points, 0, static_cast<int>(ring.faces.size()));
+      return detail::crease_limit(scheme, ring, points);
     default:
       break;
   }

@@ -1,7 +1,6 @@
 #include "limit_surface.h"
 
-#include "catmull_clark.h"
-#include "loop.h"
+#include "builtin.h"
 #include "scheme_surface.h"
 
 namespace shaolin {
@@ -12,8 +11,8 @@ std::string default_scheme(const ControlMesh& mesh) {
 }
 
 std::unique_ptr<LimitSurface> make_limit_surface(ControlMesh mesh, const std::string& scheme) {
-  return with_scheme(scheme, [&]<Scheme S>(SchemeType<S>) -> std::unique_ptr<LimitSurface> {
-    return std::make_unique<SchemeSurface<S>>(std::move(mesh));
+  return with_scheme(scheme, [&]<Scheme S>(const S& type) -> std::unique_ptr<LimitSurface> {
+    return std::make_unique<SchemeSurface<S>>(std::move(mesh), type);
   });
 }
 

@@ -33,8 +33,8 @@ class LimitSurface {
 /// The scheme a mesh asks for: its `t scheme` hint, else "loop" if all faces are triangles, else "catmark".
 std::string default_scheme(const ControlMesh& mesh);
 
-/// Builds the surface. `scheme` is "loop" or "catmark". Throws InputError for another name, or if Loop is given a face
-/// that is not a triangle. O(mesh size).
+/// Builds the surface by a built-in scheme (see builtin.h). Throws InputError for another name, or if a triangle scheme
+/// is given a face that is not a triangle. O(mesh size).
 std::unique_ptr<LimitSurface> make_limit_surface(ControlMesh mesh, const std::string& scheme);
 
 }  // namespace shaolin

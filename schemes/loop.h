@@ -1,5 +1,6 @@
 #pragma once
-/// Loop's scheme on triangles (C. Loop, "Smooth subdivision surfaces based on triangles", 1987).
+/// Loop's scheme on triangles (C. Loop, "Smooth subdivision surfaces based on triangles", 1987), with his weights at
+/// irregular vertices and with Warren's.
 #include <cmath>
 #include <numbers>
 
@@ -9,18 +10,20 @@
 
 namespace shaolin {
 
-struct Loop {
-  static constexpr const char* name = "loop";
+/// The masks of Loop's scheme for a choice of `Weights::neighbour_weight(n)`, the share of each neighbour in a vertex
+/// point; at valence 6 it must be 1/16.
+template <class Weights>
+struct LoopMasks {
   static constexpr FaceKind face_kind = FaceKind::triangle;
   static constexpr int radius = 1;
   static constexpr int regular_valence = 6;
+  static constexpr Basis basis = Basis::spline;
+  static constexpr CreaseMask crease = cubic_crease;
   using Regular = BezierTriangle;
 
-  /// Loop's beta = (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n a neighbour. The square is not optional: without it the
-  /// weight at valence 3 is 0.201 instead of 3/16.
   static VertexMask smooth_vertex(int n) {
     if (n == regular_valence) return {5.0 / 8, 1.0 / 16, 0};
-    const double beta = neighbour_weight(n);
+    const double beta = Weights::neighbour_weight(n);
     return {1 - n * beta, beta, 0};
   }
 
@@ -29,7 +32,7 @@ struct Loop {
   /// The left eigenvector of eigenvalue 1 of (vertex, ring mean): 1 / (n + 3 / (8 beta)) a neighbour.
   static LimitMask smooth_limit(int n) {
     if (n == regular_valence) return {0.5, 1.0 / 12, 0};
-    const double edge = 1 / (n + 3 / (8 * neighbour_weight(n)));
+    const double edge = 1 / (n + 3 / (8 * Weights::neighbour_weight(n)));
     return {1 - n * edge, edge, 0};
   }
 
@@ -52,14 +55,27 @@ struct Loop {
     complete_crease_tangent(mask, 3.0 / 8 + std::cos(theta) / 4, mask.edges[1] / 8, 3.0 / 8 * sum);
     return mask;
   }
+};
 
- private:
+struct Loop : LoopMasks<Loop> {
+  static constexpr const char* name = "loop";
+
+  /// (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n. The square is not optional: without it the weight at valence 3 is 0.201
+  /// instead of 3/16.
   static double neighbour_weight(int n) {
     const double centre = 3.0 / 8 + std::cos(2 * std::numbers::pi / n) / 4;
     return (5.0 / 8 - centre * centre) / n;
   }
 };
 
-static_assert(Scheme<Loop>);
+/// The simpler weights of J. Warren ("Subdivision methods for geometric design", 1995): tangents as with Loop's, for
+/// the ring's Fourier modes do not see the vertex.
+struct Warren : LoopMasks<Warren> {
+  static constexpr const char* name = "warren";
+
+  static double neighbour_weight(int n) { return n == 3 ? 3.0 / 16 : 3.0 / (8.0 * n); }
+};
+
+static_assert(Scheme<Loop> && Scheme<Warren>);
 
 }  // namespace shaolin

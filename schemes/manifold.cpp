@@ -24,7 +24,7 @@ class Cutter {
     collect_sides();
   }
 
-  ManifoldMesh cut();
+  ManifoldMesh cut(bool faces_stand_alone);
 
  private:
   void collect_sides();
@@ -37,7 +37,7 @@ class Cutter {
   void number_vertices(ManifoldMesh& result);
   void set_edge_sharpness(ManifoldMesh& result) const;
   void set_vertex_sharpness(ManifoldMesh& result) const;
-  void set_limits(ManifoldMesh& result) const;
+  void set_limits(ManifoldMesh& result, bool faces_stand_alone) const;
   int corner_index(const Side& side, bool at_end) const;
 
   template <class Visit>
@@ -151,8 +151,9 @@ bool Cutter::isolate_faces() {
   return found;
 }
 
-ManifoldMesh Cutter::cut() {
+ManifoldMesh Cutter::cut(bool faces_stand_alone) {
   ManifoldMesh result;
+  result.crease_method = mesh_.crease_method;
   do {
     std::iota(pieces_.begin(), pieces_.end(), 0);
     visit_edges([&](std::span<const Side> edge) { join_fans(edge); });
@@ -165,7 +166,7 @@ ManifoldMesh Cutter::cut() {
   number_vertices(result);
   set_edge_sharpness(result);
   set_vertex_sharpness(result);
-  set_limits(result);
+  set_limits(result, faces_stand_alone);
   return result;
 }
 
@@ -217,7 +218,7 @@ void Cutter::set_vertex_sharpness(ManifoldMesh& result) const {
   for (const int origin : result.origin) result.vertex_sharpness.push_back(input[static_cast<std::size_t>(origin)]);
 }
 
-void Cutter::set_limits(ManifoldMesh& result) const {
+void Cutter::set_limits(ManifoldMesh& result, bool faces_stand_alone) const {
   result.has_limit.assign(static_cast<std::size_t>(mesh_.face_count()), 1);
   for (const int hole : mesh_.holes) result.has_limit[static_cast<std::size_t>(hole)] = 0;
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -225,7 +226,8 @@ void Cutter::set_limits(ManifoldMesh& result) const {
     std::size_t steps = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
       const bool loose = counts_[static_cast<std::size_t>(v[i])].loose_boundary > 0;
-      if (loose && mesh_.boundary == BoundaryInterpolation::none) result.has_limit[static_cast<std::size_t>(f)] = 0;
+      if (loose && !faces_stand_alone && mesh_.boundary == BoundaryInterpolation::none)
+        result.has_limit[static_cast<std::size_t>(f)] = 0;
       steps += v[i] != v[(i + 1) % v.size()];
     }
     if (steps < 3) result.has_limit[static_cast<std::size_t>(f)] = 0;
@@ -234,6 +236,8 @@ void Cutter::set_limits(ManifoldMesh& result) const {
 
 }  // namespace
 
-ManifoldMesh cut_to_manifold(const ControlMesh& mesh) { return Cutter(mesh).cut(); }
+ManifoldMesh cut_to_manifold(const ControlMesh& mesh, bool faces_stand_alone) {
+  return Cutter(mesh).cut(faces_stand_alone);
+}
 
 }  // namespace shaolin

@@ -19,8 +19,9 @@ struct ManifoldMesh {
   std::vector<int> face_offsets, face_vertices;  ///< the input's faces, over cut vertices (repeats kept)
   std::vector<float> vertex_sharpness;           ///< per cut vertex; boundary corners and cuts included
   std::vector<char> has_limit;  ///< per face: no hole, no uninterpolated boundary, three distinct corners
-  int cut_edges = 0;            ///< non-manifold edges of the input
-  int cut_vertices = 0;         ///< vertices that fell into several pieces
+  CreaseMethod crease_method = CreaseMethod::uniform;
+  int cut_edges = 0;     ///< non-manifold edges of the input
+  int cut_vertices = 0;  ///< vertices that fell into several pieces
 
   /// The sharpness of the edge between two cut vertices: the tag's, or infinite at a boundary or a cut.
   float edge_sharpness(int a, int b) const {
@@ -34,7 +35,8 @@ struct ManifoldMesh {
   std::unordered_map<std::uint64_t, float> sharp_edges;
 };
 
+/// `faces_stand_alone`: nothing beyond a face shapes it, so that no boundary leaves it without a limit surface.
 /// O(size log size).
-ManifoldMesh cut_to_manifold(const ControlMesh& mesh);
+ManifoldMesh cut_to_manifold(const ControlMesh& mesh, bool faces_stand_alone = false);
 
 }  // namespace shaolin

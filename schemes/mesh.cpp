@@ -18,10 +18,24 @@ Mesh::Mesh(const ManifoldMesh& topology, std::vector<Vec3> points)
   corner_at_.assign(points_.size(), {-1, 0});
   build_half_edges();
   number_sides();
+  set_edge_sharpness(topology);
+}
+
+void Mesh::set_edge_sharpness(const ManifoldMesh& topology) {
   edge_sharpness_.resize(connectivity_.n_edges());
+  std::vector<SemiSharpEdges> around(points_.size(), SemiSharpEdges(topology.crease_method));
   for (const int e : edges()) {
     const Edge ends = edge(e);
-    edge_sharpness_[static_cast<std::size_t>(e)] = topology.edge_sharpness(ends.a, ends.b);
+    const float sharpness = topology.edge_sharpness(ends.a, ends.b);
+    edge_sharpness_[static_cast<std::size_t>(e)] = {sharpness, 0, 0};
+    around[static_cast<std::size_t>(ends.a)].add(sharpness);
+    around[static_cast<std::size_t>(ends.b)].add(sharpness);
+  }
+  for (const int e : edges()) {
+    const Edge ends = edge(e);
+    edge_sharpness_[static_cast<std::size_t>(e)] = {ends.sharpness,
+                                                    around[static_cast<std::size_t>(ends.a)].decayed(ends.sharpness),
+                                                    around[static_cast<std::size_t>(ends.b)].decayed(ends.sharpness)};
   }
 }
 
@@ -48,8 +62,9 @@ void Mesh::build_half_edges() {
 
 Mesh::Edge Mesh::edge(int edge) const {
   const HalfEdge half = connectivity_.halfedge_handle(OpenMesh::EdgeHandle(edge), 0);
-  return {connectivity_.from_vertex_handle(half).idx(), connectivity_.to_vertex_handle(half).idx(),
-          edge_sharpness_.empty() ? 0 : edge_sharpness_[static_cast<std::size_t>(edge)]};
+  const auto& [sharpness, half_a, half_b] = edge_sharpness_[static_cast<std::size_t>(edge)];
+  return {connectivity_.from_vertex_handle(half).idx(), connectivity_.to_vertex_handle(half).idx(), sharpness, half_a,
+          half_b};
 }
 
 void Mesh::number_sides() {
@@ -107,8 +122,12 @@ Mesh::Corner Mesh::next_counter_clockwise(Corner corner) const {
   return corner_of(connectivity_.opposite_halfedge_handle(half_edge(last)), vertex_at(corner));
 }
 
-float Mesh::sharpness_of_side(Corner corner) const {
-  return repeats_next(corner) ? infinite_sharpness : edge_sharpness_[static_cast<std::size_t>(side(corner))];
+/// The side that leaves a corner, as a spoke of the vertex at one of its ends.
+Ring::Spoke Mesh::spoke(Corner corner, int from) const {
+  if (repeats_next(corner)) return {from, side(corner), infinite_sharpness, infinite_sharpness, infinite_sharpness};
+  const Edge e = edge(side(corner));
+  if (e.a == from) return {e.b, side(corner), e.sharpness, e.half_a, e.half_b};
+  return {e.a, side(corner), e.sharpness, e.half_b, e.half_a};
 }
 
 Ring Mesh::ring(Corner corner) const {
@@ -125,12 +144,9 @@ Ring Mesh::ring(Corner corner) const {
   ring.closed = false;
   for (Corner at = first; at.face >= 0;) {
     ring.faces.push_back(face_from(at));
-    ring.spokes.push_back({ring.faces.back().vertex(1), side(at), sharpness_of_side(at)});
+    ring.spokes.push_back(spoke(at, ring.vertex));
     const Corner after = next_counter_clockwise(at);
-    if (after.face < 0) {
-      const Corner last = previous(at);
-      ring.spokes.push_back({vertex_at(last), side(last), sharpness_of_side(last)});
-    }
+    if (after.face < 0) ring.spokes.push_back(spoke(previous(at), ring.vertex));
     ring.closed = after.face >= 0 && is(after, first);
     if (ring.closed) break;
     at = after;
@@ -168,7 +184,7 @@ TriangleMesh::TriangleMesh(const ManifoldMesh& topology, std::vector<Vec3> point
   for (const int f : faces())
     if (face_size(f) != 3)
       throw InputError("face " + std::to_string(f) + " has " + std::to_string(face_size(f)) +
-                       " corners; Loop subdivision expects triangles only");
+                       " corners; a triangle scheme such as Loop expects triangles only");
 }
 
 Vec3 TriangleMesh::chord_normal(const std::vector<Vec3>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).normalized(); }

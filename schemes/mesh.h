@@ -50,10 +50,10 @@ class Mesh {
   const Vec3& point(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
   float vertex_sharpness(int vertex) const { return vertex_sharpness_[static_cast<std::size_t>(vertex)]; }
 
-  /// An edge's two ends and its sharpness.
+  /// An edge's two ends, its sharpness, and that of its halves at either end, one level finer.
   struct Edge {
     int a, b;
-    float sharpness;
+    float sharpness, half_a, half_b;
   };
   Edge edge(int edge) const;
 
@@ -116,7 +116,8 @@ class Mesh {
     return FaceSides(corner.face, &face_vertices_[first], &face_sides_[first], face_size(corner.face))
         .turned(corner.place);
   }
-  float sharpness_of_side(Corner corner) const;
+  Ring::Spoke spoke(Corner side, int from) const;
+  void set_edge_sharpness(const ManifoldMesh& topology);
   Corner corner_of(HalfEdge half_edge, int vertex) const;
 
   OpenMesh::PolyConnectivity connectivity_;
@@ -125,7 +126,8 @@ class Mesh {
   std::vector<int> face_sides_;                ///< edges; from edge_count() on sides between equal vertices
   std::vector<int> place_of_half_edge_;        ///< in its face
   std::vector<int> kernel_face_, input_face_;  ///< input face <-> half-edge face; -1 where the kernel has none
-  std::vector<float> vertex_sharpness_, edge_sharpness_;
+  std::vector<float> vertex_sharpness_;
+  std::vector<std::array<float, 3>> edge_sharpness_;  ///< its own, then of its halves (see Edge)
   std::vector<char> has_limit_;
   std::vector<Corner> corner_at_;
   int degenerate_side_count_ = 0;

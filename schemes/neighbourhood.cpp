@@ -6,8 +6,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include "sharpness.h"
-
 namespace shaolin {
 
 namespace {
@@ -133,15 +131,21 @@ CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
     add_sharpness(ring.sharpness);
     for (const FaceSides& face : ring.faces) copy.faces.push_back(renumbered(face));
     for (const Ring::Spoke& spoke : ring.spokes) {
-      copy.spokes.push_back({number_of(spoke.end), edge_number(spoke.edge), spoke.sharpness});
+      copy.spokes.push_back(spoke);
+      copy.spokes.back().end = number_of(spoke.end);
+      copy.spokes.back().edge = edge_number(spoke.edge);
       add_sharpness(spoke.sharpness);
+      if (!is_semi_sharp(spoke.sharpness)) continue;  // then the halves follow from it
+      add_sharpness(spoke.near_half);
+      add_sharpness(spoke.far_half);
     }
     result.neighbourhood.rings.push_back(std::move(copy));
   }
   return result;
 }
 
-Refinement::Refinement(const Neighbourhood& parent, FaceKind kind) : parent_(parent), kind_(kind) {
+Refinement::Refinement(const Neighbourhood& parent, FaceKind kind, CreaseMethod creases)
+    : parent_(parent), kind_(kind), creases_(creases) {
   for (const Ring& ring : parent.rings) {
     rings_.try_emplace(ring.vertex, &ring);
     for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id(), face);
@@ -233,14 +237,27 @@ Ring Refinement::ring(int refined) {
   }
 }
 
+/// The halves at a vertex of the edges around it.
+SemiSharpEdges Refinement::halves_around(int v) const {
+  SemiSharpEdges halves(creases_);
+  for (const Ring::Spoke& spoke : rings_.at(v)->spokes) halves.add(spoke.near_half);
+  return halves;
+}
+
 Ring Refinement::ring_of_vertex(int v) {
   const Ring& parent = *rings_.at(v);
   Ring result;
   result.vertex = from_vertex(v);
   result.closed = parent.closed;
   result.sharpness = decayed(parent.sharpness);
-  for (const Ring::Spoke& spoke : parent.spokes)
-    result.spokes.push_back({from_edge(spoke.edge), half(spoke.edge, v), decayed(spoke.sharpness)});
+  const SemiSharpEdges here = halves_around(v);
+  for (const Ring::Spoke& spoke : parent.spokes) {
+    SemiSharpEdges there(creases_);  // the edge's two halves meet at its new vertex
+    there.add(spoke.near_half);
+    there.add(spoke.far_half);
+    result.spokes.push_back({from_edge(spoke.edge), half(spoke.edge, v), spoke.near_half, here.decayed(spoke.near_half),
+                             there.decayed(spoke.near_half)});
+  }
   for (const FaceSides& face : parent.faces) result.faces.push_back(corner_face(face, 0, result.vertex));
   return result;
 }
@@ -280,9 +297,14 @@ Ring Refinement::ring_of_edge(int edge) {
   result.vertex = from_edge(edge);
   result.closed = place.left && place.right;
   result.sharpness = a == b ? infinite_sharpness : 0;  // an edge between equal vertices is a point
-  const float sharpness = decayed(spoke.sharpness);
-  const Ring::Spoke towards_a{from_vertex(a), half(edge, a), sharpness};
-  const Ring::Spoke towards_b{from_vertex(b), half(edge, b), sharpness};
+  SemiSharpEdges here(creases_);
+  here.add(spoke.near_half);
+  here.add(spoke.far_half);
+  const auto towards = [&](int end, float sharpness) -> Ring::Spoke {
+    const float far_half = is_semi_sharp(sharpness) ? halves_around(end).decayed(sharpness) : sharpness;
+    return {from_vertex(end), half(edge, end), sharpness, here.decayed(sharpness), far_half};
+  };
+  const Ring::Spoke towards_a = towards(a, spoke.near_half), towards_b = towards(b, spoke.far_half);
   if (place.left) {
     result.spokes.push_back(towards_b);
     add_side(result, *place.left, 0);

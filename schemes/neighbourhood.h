@@ -7,8 +7,10 @@
 #include <tuple>
 #include <vector>
 
+#include "control_mesh.h"
 #include "ring.h"
 #include "scheme.h"
+#include "sharpness.h"
 
 namespace shaolin {
 
@@ -43,7 +45,7 @@ struct RefinedVertex {
 class Refinement {
  public:
   /// `parent` must outlive the refinement.
-  Refinement(const Neighbourhood& parent, FaceKind kind);
+  Refinement(const Neighbourhood& parent, FaceKind kind, CreaseMethod creases);
 
   /// The number of children of the face: 4, or the number of corners of an n-gon.
   int child_count() const;
@@ -87,10 +89,12 @@ class Refinement {
   Ring ring_of_vertex(int v);
   Ring ring_of_edge(int edge);
   Ring ring_of_face(const FaceSides& face);
+  SemiSharpEdges halves_around(int v) const;
   void add_side(Ring& ring, const FaceSides& face, int at);
 
   const Neighbourhood& parent_;
   FaceKind kind_;
+  CreaseMethod creases_;
   std::map<int, const Ring*> rings_;
   std::map<int, FaceSides> faces_;
   std::map<RefinedVertex, int> numbers_;

@@ -6,8 +6,8 @@
 
 namespace shaolin {
 
-/// A configuration and its control points. The limit patch lies in the convex hull of the points (the masks of Loop and
-/// Catmull-Clark are convex combinations); splitting gives the children's patches, without any mesh.
+/// A configuration and its control points. The limit patch lies in the convex hull of the points, or within
+/// Configuration::hull_expansion() of it; splitting gives the children's patches, without any mesh.
 template <Scheme S>
 struct Patch {
   using Regular = typename S::Regular;
@@ -26,12 +26,7 @@ struct Patch {
   bool is_regular() const { return configuration->layout().has_value(); }
 
   /// The polynomial patch of a regular configuration.
-  Regular regular() const {
-    const auto& layout = *configuration->layout();
-    std::array<Vec3, Regular::spline_size> spline;
-    for (std::size_t i = 0; i < spline.size(); ++i) spline[i] = layout[i].of(points.data());
-    return Regular::from_spline(spline);
-  }
+  Regular regular() const { return configuration->layout()->patch(points.data()); }
 };
 
 }  // namespace shaolin

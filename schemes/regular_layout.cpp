@@ -99,15 +99,16 @@ std::array<SplinePoint, 6> six_neighbours(const Corner& corner) {
   return around;
 }
 
-}  // namespace
+/// The face's own corners, in order.
+std::vector<SplinePoint> corners(const Neighbourhood& n) {
+  std::vector<SplinePoint> points;
+  for (int k = 0; k < n.face.size(); ++k) points.push_back(point(n.face.vertex(k)));
+  return points;
+}
 
-template <>
-std::optional<std::array<SplinePoint, 16>> regular_layout<BezierQuad>(const Neighbourhood& n) {
-  if (n.face.size() != 4) return std::nullopt;
-  for (std::size_t k = 0; k < 4; ++k)
-    if (!is_regular_quad_corner(n.rings[k])) return std::nullopt;
-
-  std::array<SplinePoint, 16> grid;
+/// The 4 x 4 control points of the bicubic patch, rows along u.
+std::vector<SplinePoint> bicubic_grid(const Neighbourhood& n) {
+  std::vector<SplinePoint> grid(16);
   const auto at = [&](int i, int j) -> SplinePoint& { return grid[static_cast<std::size_t>(4 * j + i)]; };
   constexpr std::array<std::array<int, 2>, 4> places{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
   constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
@@ -124,11 +125,9 @@ std::optional<std::array<SplinePoint, 16>> regular_layout<BezierQuad>(const Neig
   return grid;
 }
 
-template <>
-std::optional<std::array<SplinePoint, 12>> regular_layout<BezierTriangle>(const Neighbourhood& n) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!is_regular_triangle_corner(n.rings[k])) return std::nullopt;
-  std::array<SplinePoint, 12> layout;
+/// The twelve control points of the box spline's patch.
+std::vector<SplinePoint> box_spline_points(const Neighbourhood& n) {
+  std::vector<SplinePoint> layout(12);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::array<SplinePoint, 6> around = six_neighbours(corner_of(n, k));
     layout[k] = point(n.face.vertex(static_cast<int>(k)));
@@ -137,6 +136,23 @@ std::optional<std::array<SplinePoint, 12>> regular_layout<BezierTriangle>(const 
     layout[7 + 2 * k] = around[4];
   }
   return layout;
+}
+
+}  // namespace
+
+template <>
+std::optional<RegularLayout<BezierQuad>> regular_layout(Basis basis, const Neighbourhood& n) {
+  if (n.face.size() != 4) return std::nullopt;
+  if (basis == Basis::linear) return RegularLayout<BezierQuad>{corners(n), BezierQuad::from_corners};
+  if (!std::all_of(n.rings.begin(), n.rings.begin() + 4, is_regular_quad_corner)) return std::nullopt;
+  return RegularLayout<BezierQuad>{bicubic_grid(n), BezierQuad::from_spline};
+}
+
+template <>
+std::optional<RegularLayout<BezierTriangle>> regular_layout(Basis basis, const Neighbourhood& n) {
+  if (basis == Basis::linear) return RegularLayout<BezierTriangle>{corners(n), BezierTriangle::from_corners};
+  if (!std::all_of(n.rings.begin(), n.rings.begin() + 3, is_regular_triangle_corner)) return std::nullopt;
+  return RegularLayout<BezierTriangle>{box_spline_points(n), BezierTriangle::from_spline};
 }
 
 }  // namespace shaolin

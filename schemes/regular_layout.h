@@ -28,17 +28,29 @@ struct SplinePoint {
   }
 };
 
-/// The spline points of a regular patch, in the order of Patch::from_spline; empty if the neighbourhood is irregular:
-/// every corner must be smooth and of regular valence, or lie on an infinitely sharp crease (a boundary) with half as
-/// many faces on this side, or be an infinitely sharp corner of a single face. Takes the neighbourhood as
+/// Where the points stand that a regular patch is made from, and how.
+template <class Bezier>
+struct RegularLayout {
+  std::vector<SplinePoint> points;
+  Bezier (*bezier)(const std::array<Vec3, Bezier::spline_size>&);  ///< reads the first points.size() of them
+
+  Bezier patch(const Vec3* control) const {
+    std::array<Vec3, Bezier::spline_size> spline;
+    for (std::size_t i = 0; i < points.size(); ++i) spline[i] = points[i].of(control);
+    return bezier(spline);
+  }
+};
+
+/// The layout of a regular patch; empty if the neighbourhood is irregular. Linear: any face of the scheme's own kind.
+/// Spline: every corner must be smooth and of regular valence, or lie on an infinitely sharp crease (a boundary) with
+/// half as many faces on this side, or be an infinitely sharp corner of a single face. Takes the neighbourhood as
 /// canonical_form() has it: cut at creases, rings turned to the face.
-template <class Patch>
-std::optional<std::array<SplinePoint, Patch::spline_size>> regular_layout(const Neighbourhood& neighbourhood);
+template <class Bezier>
+std::optional<RegularLayout<Bezier>> regular_layout(Basis basis, const Neighbourhood& neighbourhood);
 
 template <>
-std::optional<std::array<SplinePoint, BezierQuad::spline_size>> regular_layout<BezierQuad>(const Neighbourhood&);
+std::optional<RegularLayout<BezierQuad>> regular_layout(Basis, const Neighbourhood&);
 template <>
-std::optional<std::array<SplinePoint, BezierTriangle::spline_size>> regular_layout<BezierTriangle>(
-    const Neighbourhood&);
+std::optional<RegularLayout<BezierTriangle>> regular_layout(Basis, const Neighbourhood&);
 
 }  // namespace shaolin

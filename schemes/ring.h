@@ -50,6 +50,8 @@ struct Ring {
     int end;  ///< the vertex at the other end of the edge
     int edge;
     float sharpness;
+    float near_half = 0;  ///< the sharpness, one level finer, of the half at the ring's vertex
+    float far_half = 0;   ///< and of the other half: under Chaikin's rule the edges around the far end have a say in it
   };
 
   int vertex = 0;
@@ -61,6 +63,11 @@ struct Ring {
   std::vector<float> spoke_sharpness() const {
     std::vector<float> values;
     for (const Spoke& spoke : spokes) values.push_back(spoke.sharpness);
+    return values;
+  }
+  std::vector<float> half_sharpness() const {
+    std::vector<float> values;
+    for (const Spoke& spoke : spokes) values.push_back(spoke.near_half);
     return values;
   }
 };

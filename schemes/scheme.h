@@ -3,6 +3,8 @@
 #include <concepts>
 #include <vector>
 
+#include "control_mesh.h"
+
 namespace shaolin {
 
 /// The two splits: a triangle into four triangles, a face into one quad per corner.
@@ -33,37 +35,64 @@ struct TangentMask {
   std::vector<double> edges, diagonals;
 };
 
-/// The rules on a crease: those of a uniform cubic B-spline curve, whatever the scheme, so that a crease is the same
-/// curve seen from both its sides. Edge (1/2, 1/2), vertex (1/8, 3/4, 1/8), whose limit is (1/6, 2/3, 1/6); not the
-/// tempting (1/5, 3/5, 1/5), which belongs to another edge rule (3/8, 5/8).
-struct CubicCrease {
-  static constexpr double vertex = 3.0 / 4.0;
-  static constexpr double edge = 1.0 / 8.0;
-  static constexpr double limit_vertex = 2.0 / 3.0;
-  static constexpr double limit_edge = 1.0 / 6.0;
+/// The weights on a crease, of a vertex and of each of its two neighbours along the crease, in a new vertex point and
+/// in the limit. A new edge point is the midpoint, whatever the scheme.
+struct CreaseMask {
+  double vertex, edge;
+  double limit_vertex, limit_edge;
 };
 
-/// A scheme is a struct of constants and static functions; see loop.h and catmull_clark.h.
+/// The uniform cubic B-spline curve, the same for every smooth scheme, so that a crease is one curve seen from both its
+/// sides. Edge (1/2, 1/2), vertex (1/8, 3/4, 1/8), whose limit is (1/6, 2/3, 1/6); not the tempting (1/5, 3/5, 1/5),
+/// which belongs to another edge rule (3/8, 5/8).
+inline constexpr CreaseMask cubic_crease{3.0 / 4, 1.0 / 8, 2.0 / 3, 1.0 / 6};
+
+/// The polygon: vertices stay.
+inline constexpr CreaseMask linear_crease{1, 0, 1, 0};
+
+/// The polynomials that a regular patch consists of.
+enum class Basis {
+  spline,  ///< bicubic B-spline on quads, quartic box spline on triangles
+  linear   ///< bilinear on quads, linear on triangles; every quad and every triangle is regular
+};
+
+/// A scheme is a small struct, in most cases of constants and static functions; see loop.h and catmull_clark.h.
 ///
 /// - `face_kind`: the split. `radius`: rings of faces around a face that its patch depends on.
-/// - `regular_valence`: of an interior vertex of a regular patch.
 /// - `smooth_vertex(n)`, `smooth_edge()`, `smooth_limit(n)`: masks at a smooth interior vertex of valence n, an edge.
+/// - `crease`: the weights along a crease. `basis`, `Regular`: the regular patches, and their type in Bezier form.
 /// - `smooth_tangent(n, first)`: the tangent whose weights follow cos(2 pi (i - first) / n). Two of them a quarter
-///   turn apart (one by cos, one by sin) span the tangent plane: `smooth_tangents(n)` returns both.
+///   turn apart (one by cos, one by sin) span the tangent plane. Empty if the surface has none.
 /// - `crease_cross_tangent(k)`: the tangent that leaves a crease into a sector of k faces with spokes 0..k.
-/// - `Regular`: the patch type in Bezier form with the map from a regular neighbourhood.
+/// - `triangle_edge(k)`, if the scheme has one: the edge mask beside k triangles (1 or 2) in the quad split's first
+///   step, for meshes that ask for smooth triangles.
 template <class S>
-concept Scheme = requires(int n) {
-  { S::name } -> std::convertible_to<const char*>;
+concept Scheme = requires(const S scheme, int n) {
   { S::face_kind } -> std::convertible_to<FaceKind>;
   { S::radius } -> std::convertible_to<int>;
-  { S::regular_valence } -> std::convertible_to<int>;
-  { S::smooth_vertex(n) } -> std::same_as<VertexMask>;
-  { S::smooth_edge() } -> std::same_as<EdgeMask>;
-  { S::smooth_limit(n) } -> std::same_as<LimitMask>;
-  { S::smooth_tangent(n, 0.0) } -> std::same_as<TangentMask>;
-  { S::crease_cross_tangent(n) } -> std::same_as<TangentMask>;
+  { scheme.basis } -> std::convertible_to<Basis>;
+  { scheme.crease } -> std::convertible_to<CreaseMask>;
+  { scheme.smooth_vertex(n) } -> std::same_as<VertexMask>;
+  { scheme.smooth_edge() } -> std::same_as<EdgeMask>;
+  { scheme.smooth_limit(n) } -> std::same_as<LimitMask>;
+  { scheme.smooth_tangent(n, 0.0) } -> std::same_as<TangentMask>;
+  { scheme.crease_cross_tangent(n) } -> std::same_as<TangentMask>;
   typename S::Regular;
+};
+
+/// A scheme with the options of a mesh: all that decides on refined points beside topology and sharpness.
+template <Scheme S>
+struct Rules {
+  S scheme;
+  CreaseMethod creases = CreaseMethod::uniform;
+  TriangleSubdivision triangles = TriangleSubdivision::catmark;
+
+  /// The mask of a smooth edge between faces of which so many are triangles.
+  EdgeMask edge(int triangle_count) const {
+    if constexpr (requires { scheme.triangle_edge(1); })
+      if (triangles == TriangleSubdivision::smooth && triangle_count > 0) return scheme.triangle_edge(triangle_count);
+    return scheme.smooth_edge();
+  }
 };
 
 }  // namespace shaolin

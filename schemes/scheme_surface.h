@@ -1,11 +1,9 @@
 #pragma once
-/// LimitSurface for one scheme, and the choice of a scheme by name.
+/// LimitSurface for one scheme.
 #include <string>
 
-#include "catmull_clark.h"
 #include "errors.h"
 #include "limit_surface.h"
-#include "loop.h"
 #include "subdivision_mesh.h"
 
 namespace shaolin {
@@ -14,7 +12,8 @@ namespace shaolin {
 template <Scheme S>
 class SchemeSurface final : public LimitSurface {
  public:
-  explicit SchemeSurface(ControlMesh control) : control_(supported(std::move(control))), mesh_(control_) {}
+  explicit SchemeSurface(ControlMesh control, const S& scheme = {})
+      : control_(std::move(control)), mesh_(control_, scheme), table_(mesh_.rules()) {}
 
   int face_count() const override { return control_.face_count(); }
   int sub_count(int face) const override { return splits_by_corner(face) ? control_.face_size(face) : 1; }
@@ -41,14 +40,6 @@ class SchemeSurface final : public LimitSurface {
   ConfigurationTable<S>& table() const { return table_; }
 
  private:
-  static ControlMesh supported(ControlMesh control) {
-    if (control.crease_method == CreaseMethod::chaikin)
-      throw InputError("the tag 't creasemethod ... chaikin' is not supported yet; 'normal' is");
-    if (control.triangle_subdivision == TriangleSubdivision::smooth)
-      throw InputError("the tag 't smoothtriangles ... smooth' is not supported yet; 'catmark' is");
-    return control;
-  }
-
   void check_range(const SurfaceParameter& at) const {
     if (at.face < 0 || at.face >= face_count())
       throw InputError("face " + std::to_string(at.face) + " is out of range; expected 0 to " +
@@ -66,19 +57,5 @@ class SchemeSurface final : public LimitSurface {
   SubdivisionMesh<S> mesh_;
   mutable ConfigurationTable<S> table_;
 };
-
-/// A tag that carries a scheme to a generic function.
-template <Scheme S>
-struct SchemeType {
-  using Type = S;
-};
-
-/// Calls use(SchemeType<S>) for the built-in scheme of that name. Throws InputError for another.
-template <class Use>
-auto with_scheme(const std::string& name, Use use) {
-  if (name == Loop::name) return use(SchemeType<Loop>());
-  if (name == CatmullClark::name) return use(SchemeType<CatmullClark>());
-  throw InputError("unknown scheme '" + name + "'; expected loop or catmark");
-}
 
 }  // namespace shaolin

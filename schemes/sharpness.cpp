@@ -22,15 +22,14 @@ VertexRule vertex_rule(float vertex_sharpness, std::span<const float> edge_sharp
   return static_cast<VertexRule>(std::min<std::ptrdiff_t>(sharp_edges, 3));
 }
 
-VertexTransition vertex_transition(float vertex_sharpness, std::span<const float> edge_sharpness) {
+VertexTransition vertex_transition(float vertex_sharpness, std::span<const float> edge_sharpness,
+                                   std::span<const float> child_edges) {
   VertexTransition result;
   result.parent = result.child = vertex_rule(vertex_sharpness, edge_sharpness);
   if (is_smooth_rule(result.parent)) return result;
   if (result.parent == VertexRule::crease) result.parent_crease = crease_ends(edge_sharpness);
 
   const float child_vertex = decayed(vertex_sharpness);
-  std::vector<float> child_edges(edge_sharpness.size());
-  std::transform(edge_sharpness.begin(), edge_sharpness.end(), child_edges.begin(), decayed);
   result.child = vertex_rule(child_vertex, child_edges);
   if (result.child == result.parent) {
     result.child_crease = result.parent_crease;

@@ -20,8 +20,13 @@ int SplitProgram::Compiler::add_face(const FaceSides& face) {
   return at->second;
 }
 
-void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexMask& mask) {
-  VertexStep step{vertex_transition(ring.sharpness, ring.spoke_sharpness()), mask, ring.vertex, {}, {}};
+void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexMask& mask, const CreaseMask& crease) {
+  VertexStep step{vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness()),
+                  mask,
+                  crease,
+                  ring.vertex,
+                  {},
+                  {}};
   std::vector<int> faces;
   if (kind_ == FaceKind::quad && ring.closed)
     for (const FaceSides& face : ring.faces) faces.push_back(add_face(face));
@@ -38,13 +43,19 @@ int SplitProgram::Compiler::side(const FaceSides& face, int at) {
   return kind_ == FaceKind::triangle ? face.vertex((at + 2) % 3) : add_face(face);
 }
 
+int SplitProgram::Compiler::triangles_beside(int edge) const {
+  const Place& place = edges_.at(edge);
+  return place.inside() ? (place.left().size() == 3) + (place.right().size() == 3) : 0;
+}
+
 void SplitProgram::Compiler::add_edge(int edge, const EdgeMask& mask) {
-  const auto [ring, spoke] = edges_.at(edge);
-  EdgeStep step{mask, edge_crease_share(ring->spokes[spoke].sharpness), ring->vertex, ring->spokes[spoke].end, 0, 0};
-  if (step.crease_share < 1) {
-    const FaceSides& right = ring->faces[(spoke + ring->faces.size() - 1) % ring->faces.size()];
-    step.left = side(ring->faces[spoke], 0);
-    step.right = side(right, right.size() - 1);
+  const Place& place = edges_.at(edge);
+  const Ring::Spoke& spoke = place.ring->spokes[place.spoke];
+  EdgeStep step{
+      mask, edge_crease_share(spoke.sharpness, spoke.near_half, spoke.far_half), place.ring->vertex, spoke.end, 0, 0};
+  if (step.crease_share != 1) {
+    step.left = side(place.left(), 0);
+    step.right = side(place.right(), place.right().size() - 1);
   }
   program_.steps_.push_back({RefinedVertex::Kind::edge, static_cast<int>(program_.edge_steps_.size())});
   program_.edge_steps_.push_back(step);
@@ -60,7 +71,7 @@ void SplitProgram::run(const Vec3* parent, Vec3* child) const {
     const auto at = static_cast<std::size_t>(steps_[i].index);
     if (steps_[i].kind == RefinedVertex::Kind::vertex) {
       const VertexStep& step = vertex_steps_[at];
-      child[i] = vertex_point(step.rule, step.mask, parent[step.vertex], gather(parent, step.spokes),
+      child[i] = vertex_point(step.rule, step.mask, step.crease, parent[step.vertex], gather(parent, step.spokes),
                               gather(face_points.data(), step.faces));
     } else if (steps_[i].kind == RefinedVertex::Kind::edge) {
       const EdgeStep& step = edge_steps_[at];

@@ -12,7 +12,8 @@ class SplitProgram {
  public:
   /// Compiles the points `wanted` of the level below `parent`, whose vertices are numbered as the parent's points.
   template <Scheme S>
-  static SplitProgram compile(const Neighbourhood& parent, const std::vector<RefinedVertex>& wanted);
+  static SplitProgram compile(const Rules<S>& rules, const Neighbourhood& parent,
+                              const std::vector<RefinedVertex>& wanted);
 
   int point_count() const { return static_cast<int>(steps_.size()); }
 
@@ -27,6 +28,7 @@ class SplitProgram {
   struct VertexStep {
     VertexTransition rule;
     VertexMask mask;
+    CreaseMask crease;
     int vertex;
     Span spokes, faces;
   };
@@ -62,7 +64,8 @@ class SplitProgram::Compiler {
   int add_face(const FaceSides& face);
   const FaceSides& face(int id) const { return faces_.at(id); }
   const Ring& ring(int vertex) const { return *rings_.at(vertex); }
-  void add_vertex(const Ring& ring, const VertexMask& mask);
+  void add_vertex(const Ring& ring, const VertexMask& mask, const CreaseMask& crease);
+  int triangles_beside(int edge) const;
   void add_edge(int edge, const EdgeMask& mask);
 
  private:
@@ -73,6 +76,11 @@ class SplitProgram::Compiler {
   struct Place {
     const Ring* ring;
     std::size_t spoke;
+
+    /// The faces to the spoke's left and right; the edge must be inside the ring.
+    const FaceSides& left() const { return ring->faces[spoke]; }
+    const FaceSides& right() const { return ring->faces[(spoke + ring->faces.size() - 1) % ring->faces.size()]; }
+    bool inside() const { return ring->closed || (spoke > 0 && spoke < ring->faces.size()); }
   };
 
   FaceKind kind_;
@@ -84,7 +92,8 @@ class SplitProgram::Compiler {
 };
 
 template <Scheme S>
-SplitProgram SplitProgram::compile(const Neighbourhood& parent, const std::vector<RefinedVertex>& wanted) {
+SplitProgram SplitProgram::compile(const Rules<S>& rules, const Neighbourhood& parent,
+                                   const std::vector<RefinedVertex>& wanted) {
   SplitProgram program;
   Compiler compiler(parent, S::face_kind, program);
   program.sides_are_face_points_ = S::face_kind == FaceKind::quad;
@@ -92,11 +101,12 @@ SplitProgram SplitProgram::compile(const Neighbourhood& parent, const std::vecto
     switch (from.kind) {
       case RefinedVertex::Kind::vertex: {
         const Ring& ring = compiler.ring(from.id);
-        compiler.add_vertex(ring, S::smooth_vertex(static_cast<int>(ring.spokes.size())));
+        compiler.add_vertex(ring, rules.scheme.smooth_vertex(static_cast<int>(ring.spokes.size())),
+                            rules.scheme.crease);
         break;
       }
       case RefinedVertex::Kind::edge:
-        compiler.add_edge(from.id, S::smooth_edge());
+        compiler.add_edge(from.id, rules.edge(compiler.triangles_beside(from.id)));
         break;
       case RefinedVertex::Kind::face:
         program.steps_.push_back({from.kind, compiler.add_face(compiler.face(from.id))});

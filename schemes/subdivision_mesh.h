@@ -20,8 +20,11 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
  public:
   /// Level 0. Throws InputError if the mesh does not suit the scheme. O(size log size).
-  explicit SubdivisionMesh(const ControlMesh& control)
-      : SubdivisionMesh(cut_to_manifold(control), control.positions, nullptr) {}
+  explicit SubdivisionMesh(const ControlMesh& control, const S& scheme = {})
+      : SubdivisionMesh(cut_to_manifold(control, scheme.basis == Basis::linear), control.positions, nullptr,
+                        {scheme, control.crease_method, control.triangle_subdivision}) {}
+
+  const Rules<S>& rules() const { return rules_; }
 
   int level() const { return parent_ ? parent_->level() + 1 : 0; }
 
@@ -64,8 +67,9 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   }
 
  private:
-  SubdivisionMesh(const ManifoldMesh& topology, const std::vector<Vec3>& points, const SubdivisionMesh* parent)
-      : Base(topology, parent ? points : of_cut_vertices(topology, points)), parent_(parent) {
+  SubdivisionMesh(const ManifoldMesh& topology, const std::vector<Vec3>& points, const SubdivisionMesh* parent,
+                  Rules<S> rules)
+      : Base(topology, parent ? points : of_cut_vertices(topology, points)), rules_(std::move(rules)), parent_(parent) {
     int next = 0;
     for (const int f : this->faces()) {
       first_child_.push_back(next);
@@ -87,6 +91,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   ManifoldMesh refined_topology() const;
   void add_sharpness(ManifoldMesh& next) const;
 
+  Rules<S> rules_;
   const SubdivisionMesh* parent_;
   std::vector<int> first_child_, parent_face_;
 };
@@ -118,7 +123,8 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     for (const FaceSides& face : ring.faces) faces.push_back(face.id());
     const int n = static_cast<int>(ends.size());
     result[static_cast<std::size_t>(v)] =
-        vertex_point(vertex_transition(ring.sharpness, ring.spoke_sharpness()), S::smooth_vertex(n), this->point(v),
+        vertex_point(vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness()),
+                     rules_.scheme.smooth_vertex(n), rules_.scheme.crease, this->point(v),
                      {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
   }
 
@@ -134,15 +140,18 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
   for (const int e : this->edges()) {
     const auto edge = this->edge(e);
     const auto half = this->connectivity().halfedge_handle(OpenMesh::EdgeHandle(e), 0);
+    int triangles = 0;
     const auto side = [&](OpenMesh::HalfedgeHandle h) -> const Vec3* {
       const auto handle = this->connectivity().face_handle(h);
       if (!handle.is_valid()) return nullptr;
+      triangles += this->face_size(this->input_face(handle)) == 3;
       if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(this->input_face(handle))];
       return &this->point(this->connectivity().to_vertex_handle(this->connectivity().next_halfedge_handle(h)).idx());
     };
+    const Vec3 *left = side(half), *right = side(this->connectivity().opposite_halfedge_handle(half));
     result[static_cast<std::size_t>(child_of_edge(e))] =
-        edge_point(S::smooth_edge(), edge_crease_share(edge.sharpness), this->point(edge.a), this->point(edge.b),
-                   side(half), side(this->connectivity().opposite_halfedge_handle(half)));
+        edge_point(rules_.edge(triangles), edge_crease_share(edge.sharpness, edge.half_a, edge.half_b),
+                   this->point(edge.a), this->point(edge.b), left, right);
   }
   return result;
 }
@@ -150,6 +159,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
 template <Scheme S>
 ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
   ManifoldMesh next;
+  next.crease_method = rules_.creases;
   next.face_offsets = {0};
   const auto add = [&](int face, std::initializer_list<int> corners) {
     next.face_vertices.insert(next.face_vertices.end(), corners);
@@ -192,8 +202,8 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
   };
   for (const int e : this->edges()) {
     const auto edge = this->edge(e);
-    set(edge.a, child_of_edge(e), decayed(edge.sharpness));
-    set(edge.b, child_of_edge(e), decayed(edge.sharpness));
+    set(edge.a, child_of_edge(e), edge.half_a);
+    set(edge.b, child_of_edge(e), edge.half_b);
   }
   // An edge between equal vertices is a point: its new vertex stays there, and both its halves are sharp.
   for (const int f : this->faces())
@@ -207,7 +217,7 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
 
 template <Scheme S>
 std::unique_ptr<SubdivisionMesh<S>> SubdivisionMesh<S>::refine() const {
-  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this));
+  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this, rules_));
   for (const int f : this->faces())
     for (int k = 0; k < child_count(f); ++k) next->parent_face_.push_back(f);
   return next;

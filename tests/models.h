@@ -24,7 +24,9 @@ namespace detail {
 /// Files in the shapes folder say in their names what they are for; they carry no hint that the library reads.
 inline std::string scheme_of(const std::string& name, const ControlMesh& mesh, bool named) {
   if (!named) return default_scheme(mesh);
-  return name.find("loop") != std::string::npos ? "loop" : "catmark";
+  for (const char* scheme : {"loop", "bilinear"})
+    if (name.find(scheme) != std::string::npos) return scheme;
+  return "catmark";
 }
 
 inline void add_folder(std::vector<Model>& models, const char* variable, bool named) {

@@ -1,6 +1,7 @@
 // A slow reference twin: global refinement, limit points, and every triangle asked in a loop.
 #include <array>
 
+#include "schemes/builtin.h"
 #include "schemes/scheme_surface.h"
 #include "tests/catch.h"
 #include "tests/intersect/random_rays.h"
@@ -51,10 +52,10 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
 /// further step moves them by a quarter of that where the surface is smooth, by no more than two thirds around a vertex
 /// of any valence: all further steps together by no more than twice the last. That is the sagitta.
 template <Scheme S>
-Tessellation tessellate(const ControlMesh& control, int levels) {
-  ConfigurationTable<S> table;
+Tessellation tessellate(const ControlMesh& control, const S& scheme, int levels) {
   std::vector<std::unique_ptr<SubdivisionMesh<S>>> meshes;
-  meshes.push_back(std::make_unique<SubdivisionMesh<S>>(control));
+  meshes.push_back(std::make_unique<SubdivisionMesh<S>>(control, scheme));
+  ConfigurationTable<S> table(meshes.front()->rules());
   for (int level = 0; level < levels; ++level) meshes.push_back(meshes.back()->refine());
   const SubdivisionMesh<S>&fine = *meshes.back(), &coarse = *fine.parent();
   const std::vector<Vec3> points = limit_points(fine, table);
@@ -132,7 +133,7 @@ struct Verdict {
 void compare(const Model& model, int levels, int count, double most_undecided) {
   CAPTURE(model.name, model.scheme);
   const Tessellation twin =
-      with_scheme(model.scheme, [&]<Scheme S>(SchemeType<S>) { return tessellate<S>(model.mesh, levels); });
+      with_scheme(model.scheme, [&]<Scheme S>(const S& scheme) { return tessellate(model.mesh, scheme, levels); });
   const Scene scene(model.mesh, model.scheme);
   int undecided = 0, hits = 0;
   for (Ray ray : random_rays(scene.bounds(), count, 41)) {
@@ -166,7 +167,10 @@ TEST_CASE("Rays meet what a fine tessellation meets", "[intersect][scene][sweep]
                                  {"poles", "loop", shaken(poles("loop", 8), 0.2)},
                                  {"prism", "catmark", shaken(prism(6), 0.1)},
                                  {"fan", "catmark", shaken(fan("catmark", 3), 0.2)},
-                                 {"fan", "loop", shaken(fan("loop", 4), 0.2)}};
+                                 {"fan", "loop", shaken(fan("loop", 4), 0.2)},
+                                 {"poles", "warren", shaken(poles("loop", 5), 0.2)},
+                                 {"prism", "bilinear", shaken(prism(5), 0.1)},
+                                 {"poles", "linear", shaken(poles("loop", 6), 0.2)}};
   for (const Model& model : small) compare(model, 5, 400, 0.1);
 }
 

@@ -50,7 +50,7 @@ TEMPLATE_TEST_CASE("Hierarchy and patch give the same points, bit for bit", "[sc
       // Beside interior vertices of valence 2 a split triangle mesh is none that half-edges can hold.
       CHECK(model.name.find("val2") != std::string::npos);
     }
-    ConfigurationTable<S> table;
+    ConfigurationTable<S> table(mesh.rules());
     int differing = 0, first_differing = -1;
     const int stride = 1 + mesh.face_count() / 400;
     for (int face = 0; face < mesh.face_count(); face += stride) {
@@ -77,11 +77,11 @@ TEMPLATE_TEST_CASE("A refined mesh knows its parents and children", "[schemes][s
   for (const int face : mesh.faces())
     for (int k = 0; k < mesh.child_count(face); ++k) CHECK(next->parent_face(mesh.child_face(face, k)) == face);
   for (const int e : mesh.edges()) {
-    const auto [a, b, sharpness] = mesh.edge(e);
+    const Mesh::Edge edge = mesh.edge(e);
     const Ring ring = next->ring(next->corner_at(mesh.child_of_edge(e)));
     std::set<int> ends;
     for (const Ring::Spoke& spoke : ring.spokes) ends.insert(spoke.end);
-    CHECK((ends.count(mesh.child_of_vertex(a)) == 1 && ends.count(mesh.child_of_vertex(b)) == 1));
+    CHECK((ends.count(mesh.child_of_vertex(edge.a)) == 1 && ends.count(mesh.child_of_vertex(edge.b)) == 1));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <utility>
 
+#include "schemes/builtin.h"
 #include "schemes/obj.h"
 
 namespace shaolin {
@@ -14,14 +15,20 @@ void print_warnings(const ControlMesh& mesh, std::size_t first) {
     std::cerr << "shaolin: warning: " << mesh.warnings[i] << '\n';
 }
 
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const BuiltinScheme& scheme : builtin_schemes()) names.emplace_back(scheme.name);
+  return names;
+}
+
 }  // namespace
 
 void add_model_options(CLI::App& app, ModelOptions& options) {
   app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
   app.add_option("--scheme", options.scheme,
-                 "Subdivision scheme, loop or catmark (default: the file's 't scheme' tag; without it, loop if all "
-                 "faces are triangles, else catmark)")
-      ->check(CLI::IsMember({"loop", "catmark"}))
+                 "Subdivision scheme: " + builtin_scheme_names() +
+                     " (default: the file's 't scheme' tag; without it, loop if all faces are triangles, else catmark)")
+      ->check(CLI::IsMember(scheme_names()))
       ->type_name("NAME");
 }
 

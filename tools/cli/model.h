@@ -14,7 +14,7 @@ namespace shaolin {
 /// `MODEL` and `--scheme`.
 struct ModelOptions {
   std::filesystem::path file;
-  std::string scheme;  ///< "loop" or "catmark"; empty: what the mesh asks for, see default_scheme()
+  std::string scheme;  ///< a built-in scheme; empty: what the mesh asks for, see default_scheme()
 };
 
 /// Adds the positional MODEL (required) and --scheme.

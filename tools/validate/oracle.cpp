@@ -23,10 +23,13 @@ namespace Sdc = OpenSubdiv::Sdc;
 namespace {
 
 SubdivisionRules rules_of(const ControlMesh& mesh, const std::string& scheme) {
-  if (scheme != "loop" && scheme != "catmark") {
-    throw InputError("scheme '" + scheme + "' is not known; expected loop or catmark");
-  }
-  SubdivisionRules rules{scheme == "loop" ? Sdc::SCHEME_LOOP : Sdc::SCHEME_CATMARK, {}};
+  static const std::map<std::string, Sdc::SchemeType> known{
+      {"loop", Sdc::SCHEME_LOOP}, {"catmark", Sdc::SCHEME_CATMARK}, {"bilinear", Sdc::SCHEME_BILINEAR}};
+  const auto at = known.find(scheme);
+  if (at == known.end())
+    throw InputError("OpenSubdiv has no scheme '" + scheme +
+                     "' to hold it against; expected loop, catmark or bilinear");
+  SubdivisionRules rules{at->second, {}};
   rules.options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
   rules.options.SetCreasingMethod(mesh.crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
                                                                               : Sdc::Options::CREASE_UNIFORM);

@@ -27,8 +27,8 @@ struct OracleOptions {
 /// n-gon is a quad. Not for concurrent use: evaluation fills caches.
 class Oracle {
  public:
-  /// `scheme` is "loop" or "catmark". Throws InputError for another name, for Loop over other faces than triangles and
-  /// for meshes that OpenSubdiv declines. O(mesh size).
+  /// `scheme` is "loop", "catmark" or "bilinear". Throws InputError for another name, for Loop over other faces than
+  /// triangles and for meshes that OpenSubdiv declines. O(mesh size).
   Oracle(const ControlMesh& mesh, const std::string& scheme, const OracleOptions& options = {});
   ~Oracle();
   Oracle(Oracle&&) noexcept;

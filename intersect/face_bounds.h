@@ -45,7 +45,8 @@ std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
   }
 
   std::vector<Box> result(count);
-  const EdgeMask edge = S::smooth_edge();
+  std::vector<EdgeMask> edge_masks;
+  for (const int triangles : {0, 1, 2}) edge_masks.push_back(mesh.rules().edge(triangles));
   for (const int v : mesh.vertices()) {
     const auto at = static_cast<std::size_t>(v);
     const int n = valence[at];
@@ -56,12 +57,39 @@ std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
     Box& box = result[at];
     box.add(point);
     box.add(detail::scaled(ends, 0.5));
-    box.add(detail::sum(detail::scaled(ends, edge.end), sides, 2 * edge.side));
+    for (const EdgeMask& edge : edge_masks) box.add(detail::sum(detail::scaled(ends, edge.end), sides, 2 * edge.side));
     if (quads) box.add(face_points[at]);
+    if (mesh.rules().creases == CreaseMethod::chaikin) box.add(neighbours[at]);  // see face_bounds()
     if (n < 2) continue;
-    const VertexMask mask = S::smooth_vertex(n);
+    const VertexMask mask = mesh.rules().scheme.smooth_vertex(n);
     box.add(detail::sum(detail::sum(detail::scaled(point, mask.vertex), neighbours[at], n * mask.edge), sides,
                         quads ? n * mask.face : 0));
+  }
+  return result;
+}
+
+/// For every face a box that holds its limit: of the boxes of its corners, expanded where refinement may leave the hull
+/// (under Chaikin's rule, see hull_expansion.h; there the boxes hold the control points too). O(size).
+template <Scheme S>
+std::vector<Box> face_bounds(const SubdivisionMesh<S>& mesh) {
+  const std::vector<Box> corners = corner_bounds(mesh);
+  std::vector<float> sharpest(corners.size(), 0);
+  for (const int e : mesh.edges()) {
+    const Mesh::Edge edge = mesh.edge(e);
+    for (const int v : {edge.a, edge.b}) {
+      float& known = sharpest[static_cast<std::size_t>(v)];
+      if (is_semi_sharp(edge.sharpness)) known = std::max(known, edge.sharpness);
+    }
+  }
+  std::vector<Box> result;
+  for (const int f : mesh.faces()) {
+    Box box;
+    float sharpness = 0;
+    for (const int v : mesh.face(f)) {
+      box.add(corners[static_cast<std::size_t>(v)]);
+      sharpness = std::max(sharpness, sharpest[static_cast<std::size_t>(v)]);
+    }
+    result.push_back(box.expanded(hull_expansion(mesh.rules(), sharpness)));
   }
   return result;
 }
