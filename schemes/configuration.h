@@ -7,7 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "domain.h"
 #include "hull_expansion.h"
+#include "limit_rows.h"
 #include "neighbourhood.h"
 #include "regular_layout.h"
 #include "scheme.h"
@@ -38,9 +40,11 @@ class Configuration {
         layout_(regular_layout<RegularPatch>(table.rules().scheme.basis, neighbourhood_)),
         hull_expansion_(shaolin::hull_expansion(table.rules(), neighbourhood_)),
         children_(static_cast<std::size_t>(child_count())),
+        limit_rows_(static_cast<std::size_t>(corner_count())),
         table_(table) {}
   ~Configuration() {
     for (const auto& child : children_) delete child.load();
+    for (const auto& rows : limit_rows_) delete rows.load();
   }
   Configuration(const Configuration&) = delete;
   Configuration& operator=(const Configuration&) = delete;
@@ -59,20 +63,35 @@ class Configuration {
 
   /// The split: child k's configuration and the program that makes its points. Thread-safe.
   const Child& child(int k) const {
-    const auto at = static_cast<std::size_t>(k);
-    if (const Child* known = children_[at].load(std::memory_order_acquire)) return *known;
-    auto made = std::make_unique<Child>(table_.split(*this, k));
-    Child* expected = nullptr;
-    if (children_[at].compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
-    return *expected;
+    return once(children_[static_cast<std::size_t>(k)], [&] { return table_.split(*this, k); });
+  }
+
+  /// The limit masks at corner k over the patch's points, derived from the split when first asked for. Empty unless the
+  /// split at that corner leads to this configuration again (split first), or if there is no limit. Thread-safe.
+  const std::optional<LimitRows>& derived_limit(int k) const {
+    return once(limit_rows_[static_cast<std::size_t>(k)], [&]() -> std::optional<LimitRows> {
+      if (corner_count() != Domain<S::face_kind>::corner_count || child(k).configuration != this) return {};
+      return limit_rows(matrix_of(child(k).program, point_count_), neighbourhood_.rings[static_cast<std::size_t>(k)]);
+    });
   }
 
  private:
+  /// What `slot` holds, made now if nobody made it before.
+  template <class Value, class Make>
+  static const Value& once(std::atomic<Value*>& slot, Make make) {
+    if (const Value* known = slot.load(std::memory_order_acquire)) return *known;
+    auto made = std::make_unique<Value>(make());
+    Value* expected = nullptr;
+    if (slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;
+  }
+
   Neighbourhood neighbourhood_;
   int point_count_;
   std::optional<Layout> layout_;
   double hull_expansion_;
   mutable std::vector<std::atomic<Child*>> children_;
+  mutable std::vector<std::atomic<std::optional<LimitRows>*>> limit_rows_;
   ConfigurationTable<S>& table_;
 };
 

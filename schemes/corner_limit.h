@@ -51,8 +51,8 @@ LimitAtCorner crease_limit(const S& scheme, const Ring& ring, const Vec3* points
   return {position, (a - b).cross(across).normalized()};
 }
 
-/// The limit where no mask is known, by splitting towards the corner. Its neighbours come nearer by a factor of at most
-/// 0.66 a level (Catmull-Clark at high valence); after 100 levels they are within 1e-18 of their first distance.
+/// The limit by splitting towards the corner. Its neighbours come nearer by a factor of at most 0.66 a level
+/// (Catmull-Clark at high valence); after 100 levels they are within 1e-18 of their first distance. O(points).
 template <Scheme S>
 LimitAtCorner limit_by_refinement(Patch<S> patch, int k) {
   constexpr int levels = 100;
@@ -60,12 +60,30 @@ LimitAtCorner limit_by_refinement(Patch<S> patch, int k) {
   return {patch.points[static_cast<std::size_t>(k)], {}};
 }
 
+/// The limit by derived masks; empty if there are none yet.
+template <Scheme S>
+std::optional<LimitAtCorner> derived_limit(const Patch<S>& patch, int k) {
+  constexpr std::size_t most_points = 300;  // the masks of so many take some 50 ms, and the cube of that for more
+  if (patch.points.size() > most_points) return limit_by_refinement(patch, k);
+  const std::optional<LimitRows>& rows = patch.configuration->derived_limit(k);
+  if (!rows) return {};
+  Eigen::Matrix<double, 3, Eigen::Dynamic> points(3, patch.points.size());
+  for (std::size_t i = 0; i < patch.points.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = patch.points[i];
+  LimitAtCorner limit{points * rows->position, {}};
+  if (rows->tangents) {
+    const Eigen::Matrix<double, 3, 2> tangents = points * *rows->tangents;
+    limit.normal = tangents.col(0).cross(tangents.col(1)).normalized();
+  }
+  return limit;
+}
+
 }  // namespace detail
 
 /// The limit at corner k, or empty while sharpness there still decays or faces around are not of the scheme's kind
 /// (split first). The normal is empty at a corner vertex of more than one face: its eigenvalues leave no common tangent
-/// plane, and each direction into the surface has its own. A dart has no closed form: the smooth vertex's limit mask
-/// (which OpenSubdiv takes) ignores that the sharp edge's own rule changes the subdivision matrix.
+/// plane, and each direction into the surface has its own. A dart has no closed form, its masks are derived (see
+/// limit_rows.h): the smooth vertex's (which OpenSubdiv takes) ignore that the sharp edge's own rule changes the
+/// subdivision matrix.
 template <Scheme S>
 std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Neighbourhood& n = patch.configuration->neighbourhood();
@@ -82,7 +100,7 @@ std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
     case VertexRule::smooth:
       return detail::smooth_limit(scheme, ring, points);
     case VertexRule::dart:
-      return detail::limit_by_refinement(patch, k);
+      return detail::derived_limit(patch, k);
     case VertexRule::crease:
       return detail::crease_limit(scheme, ring, points);
     default:

@@ -58,7 +58,8 @@ Eigen::MatrixXd matrix_of(const SplitProgram& program, int parent_points) {
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXcd found = matrix.eigenvalues();
   std::vector<std::complex<double>> sorted(found.begin(), found.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return sorted;
 }
 

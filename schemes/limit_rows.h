@@ -25,9 +25,9 @@ struct LimitRows {
 };
 
 /// The left eigenvector of eigenvalue 1, and those of the next two eigenvalues if these are real, positive and larger
-/// than all others (Doo and Sabin 1978; Reif 1995). `ring` is the ring of the point that the matrix shrinks to: laid out
-/// flat, counter-clockwise, it gives the tangents their orientation. Empty if 1 is not the single largest eigenvalue:
-/// then refinement does not converge to a point. O(points^3).
+/// than all others (Doo and Sabin 1978; Reif 1995). `ring` is the ring of the point that the matrix shrinks to: laid
+/// out flat, counter-clockwise, it gives the tangents their orientation. Empty if 1 is not the single largest
+/// eigenvalue: then refinement does not converge to a point. O(points^3).
 std::optional<LimitRows> limit_rows(const Eigen::MatrixXd& matrix, const Ring& ring);
 
 }  // namespace shaolin
