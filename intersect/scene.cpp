@@ -1,89 +1,12 @@
 #include "scene.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
-#include "../schemes/builtin.h"
-#include "shaolin.h"
+#include "scheme_scene.h"
 
 namespace shaolin {
 
-/// The surface and its intersector behind the scheme's type.
-class Scene::Implementation {
- public:
-  virtual ~Implementation() = default;
-  virtual std::optional<Hit> intersect(const Ray& ray) const = 0;
-  virtual bool occluded(const Ray& ray) const = 0;
-  virtual const LimitSurface& surface() const = 0;
-  virtual Statistics statistics() const = 0;
-  virtual Box bounds() const = 0;
-};
-
-namespace {
-
-void check(const Ray& ray) {
-  const auto text = [](const Vec3& v) {
-    return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
-  };
-  if (!ray.origin.allFinite()) throw InputError("ray origin " + text(ray.origin) + " is not finite");
-  if (!ray.direction.allFinite()) throw InputError("ray direction " + text(ray.direction) + " is not finite");
-  if (ray.direction.isZero(0)) throw InputError("ray direction is zero; expected a direction of any other length");
-  if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
-}
-
-template <Scheme S>
-class SchemeScene final : public Scene::Implementation {
- public:
-  SchemeScene(ControlMesh mesh, const S& scheme) : surface_(std::move(mesh), scheme), shaolin_(surface_) {}
-
-  std::optional<Hit> intersect(const Ray& ray) const override {
-    return counted(ray, [&](RayCounters& counters) { return shaolin_.intersect(ray, counters); });
-  }
-  bool occluded(const Ray& ray) const override {
-    return counted(ray, [&](RayCounters& counters) { return shaolin_.occluded(ray, counters); });
-  }
-  const LimitSurface& surface() const override { return surface_; }
-  Box bounds() const override { return shaolin_.bvh().bounds(); }
-
-  Statistics statistics() const override {
-    Statistics total;
-    for (const Statistics& local : counters_) {
-      total.rays += local.rays;
-      total.hits += local.hits;
-      total.hull_tests += local.hull_tests;
-      total.cells += local.cells;
-      total.newton_steps += local.newton_steps;
-    }
-    total.faces = shaolin_.limit_faces();
-    total.faces_touched = shaolin_.faces_touched();
-    total.patches_split = shaolin_.patches_split();
-    total.bytes = shaolin_.bytes();
-    return total;
-  }
-
- private:
-  template <class Query>
-  auto counted(const Ray& ray, Query query) const {
-    check(ray);
-    RayCounters counters;
-    const auto answer = query(counters);
-    Statistics& local = counters_.local();
-    counters.add_to(local);
-    ++local.rays;
-    local.hits += static_cast<bool>(answer);
-    return answer;
-  }
-
-  SchemeSurface<S> surface_;
-  ShaoLin<S, ExactFinish> shaolin_;
-  mutable tbb::enumerable_thread_specific<Statistics> counters_;
-};
-
-}  // namespace
-
 Scene::Scene(ControlMesh mesh, const std::string& scheme)
-    : implementation_(with_scheme(scheme, [&]<Scheme S>(const S& type) -> std::unique_ptr<Implementation> {
-        return std::make_unique<SchemeScene<S>>(std::move(mesh), type);
-      })) {}
+    : implementation_(with_scheme(scheme, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type); })) {
+}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;

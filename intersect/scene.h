@@ -36,7 +36,7 @@ class Scene {
   /// A box that contains the surface: of the control neighbourhoods of the faces with a limit.
   Box bounds() const;
 
-  class Implementation;  ///< defined in scene.cpp
+  class Implementation;  ///< defined in scheme_scene.h
 
  private:
   std::unique_ptr<Implementation> implementation_;

@@ -25,4 +25,13 @@ std::string builtin_scheme_names() {
   return names;
 }
 
+std::shared_ptr<const SchemeMasks> builtin_masks(const std::string& name) {
+  if (name == Loop::name) return std::make_shared<MasksOf<Loop>>();
+  if (name == CatmullClark::name) return std::make_shared<MasksOf<CatmullClark>>();
+  if (name == Warren::name) return std::make_shared<MasksOf<Warren>>();
+  if (name == Linear::name) return std::make_shared<MasksOf<Linear>>();
+  if (name == Bilinear::name) return std::make_shared<MasksOf<Bilinear>>();
+  throw InputError("unknown scheme '" + name + "'; expected " + builtin_scheme_names());
+}
+
 }  // namespace shaolin

@@ -24,19 +24,19 @@ std::span<const BuiltinScheme> builtin_schemes();
 /// "loop, catmark, ... or bilinear": for messages.
 std::string builtin_scheme_names();
 
+/// The masks of the built-in scheme of that name, behind virtual functions. Throws InputError for another name.
+std::shared_ptr<const SchemeMasks> builtin_masks(const std::string& name);
+
 /// Calls use(scheme) with the built-in scheme of that name. Loop and Catmull-Clark are types of their own, whose masks
 /// are inlined; the others share one type per face kind, so that a program is not compiled once for each. Throws
 /// InputError for another name.
 template <class Use>
 auto with_scheme(const std::string& name, Use use) {
-  using Triangles = RuntimeScheme<FaceKind::triangle>;
-  using Quads = RuntimeScheme<FaceKind::quad>;
   if (name == Loop::name) return use(Loop());
   if (name == CatmullClark::name) return use(CatmullClark());
-  if (name == Warren::name) return use(Triangles(std::make_shared<MasksOf<Warren>>()));
-  if (name == Linear::name) return use(Triangles(std::make_shared<MasksOf<Linear>>()));
-  if (name == Bilinear::name) return use(Quads(std::make_shared<MasksOf<Bilinear>>()));
-  throw InputError("unknown scheme '" + name + "'; expected " + builtin_scheme_names());
+  const std::shared_ptr<const SchemeMasks> masks = builtin_masks(name);
+  return masks->face_kind() == FaceKind::triangle ? use(RuntimeScheme<FaceKind::triangle>(masks))
+                                                  : use(RuntimeScheme<FaceKind::quad>(masks));
 }
 
 }  // namespace shaolin

@@ -16,6 +16,7 @@ struct CatmullClark {
   static constexpr int regular_valence = 4;
   static constexpr Basis basis = Basis::spline;
   static constexpr CreaseMask crease = cubic_crease;
+  static constexpr Smoothness smoothness = smooth_surface;
   using Regular = BezierQuad;
 
   /// ((n - 2) vertex + mean of neighbours + mean of new face points) / n.

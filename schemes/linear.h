@@ -12,6 +12,7 @@ struct PolyhedralMasks {
   static constexpr int radius = 1;
   static constexpr Basis basis = Basis::linear;
   static constexpr CreaseMask crease = linear_crease;
+  static constexpr Smoothness smoothness = continuous_surface;
 
   static VertexMask smooth_vertex(int) { return {1, 0, 0}; }
   static EdgeMask smooth_edge() { return {0.5, 0}; }

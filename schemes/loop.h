@@ -19,6 +19,7 @@ struct LoopMasks {
   static constexpr int regular_valence = 6;
   static constexpr Basis basis = Basis::spline;
   static constexpr CreaseMask crease = cubic_crease;
+  static constexpr Smoothness smoothness = smooth_surface;
   using Regular = BezierTriangle;
 
   static VertexMask smooth_vertex(int n) {
@@ -59,6 +60,7 @@ struct LoopMasks {
 
 struct Loop : LoopMasks<Loop> {
   static constexpr const char* name = "loop";
+  static constexpr Smoothness smoothness{1, 1, 1, 0, true};
 
   /// (5/8 - (3/8 + cos(2 pi / n) / 4)^2) / n. The square is not optional: without it the weight at valence 3 is 0.201
   /// instead of 3/16.

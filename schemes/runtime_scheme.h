@@ -18,7 +18,9 @@ class SchemeMasks {
   virtual FaceKind face_kind() const = 0;
   virtual Basis basis() const = 0;
   virtual CreaseMask crease() const = 0;
+  virtual Smoothness smoothness() const = 0;
   virtual VertexMask smooth_vertex(int n) const = 0;
+  virtual VertexMask dart_vertex(int n) const { return smooth_vertex(n); }
   virtual EdgeMask smooth_edge() const = 0;
   virtual LimitMask smooth_limit(int n) const = 0;
   virtual TangentMask smooth_tangent(int n, double first) const = 0;
@@ -32,7 +34,12 @@ class MasksOf final : public SchemeMasks {
   FaceKind face_kind() const override { return S::face_kind; }
   Basis basis() const override { return scheme_.basis; }
   CreaseMask crease() const override { return scheme_.crease; }
+  Smoothness smoothness() const override { return scheme_.smoothness; }
   VertexMask smooth_vertex(int n) const override { return scheme_.smooth_vertex(n); }
+  VertexMask dart_vertex(int n) const override {
+    if constexpr (requires { scheme_.dart_vertex(n); }) return scheme_.dart_vertex(n);
+    return scheme_.smooth_vertex(n);
+  }
   EdgeMask smooth_edge() const override { return scheme_.smooth_edge(); }
   LimitMask smooth_limit(int n) const override { return scheme_.smooth_limit(n); }
   TangentMask smooth_tangent(int n, double first) const override { return scheme_.smooth_tangent(n, first); }
@@ -49,13 +56,15 @@ struct RuntimeScheme {
   using Regular = std::conditional_t<kind == FaceKind::triangle, BezierTriangle, BezierQuad>;
 
   explicit RuntimeScheme(std::shared_ptr<const SchemeMasks> of)
-      : masks(std::move(of)), basis(masks->basis()), crease(masks->crease()) {}
+      : masks(std::move(of)), basis(masks->basis()), crease(masks->crease()), smoothness(masks->smoothness()) {}
 
   std::shared_ptr<const SchemeMasks> masks;
   Basis basis;
   CreaseMask crease;
+  Smoothness smoothness;
 
   VertexMask smooth_vertex(int n) const { return masks->smooth_vertex(n); }
+  VertexMask dart_vertex(int n) const { return masks->dart_vertex(n); }
   EdgeMask smooth_edge() const { return masks->smooth_edge(); }
   LimitMask smooth_limit(int n) const { return masks->smooth_limit(n); }
   TangentMask smooth_tangent(int n, double first) const { return masks->smooth_tangent(n, first); }

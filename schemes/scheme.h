@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "control_mesh.h"
+#include "sharpness.h"
 
 namespace shaolin {
 
@@ -56,14 +57,27 @@ enum class Basis {
   linear   ///< bilinear on quads, linear on triangles; every quad and every triangle is regular
 };
 
+/// How smooth a scheme declares its surfaces to be at a vertex of each kind: 0 continuous, 1 with tangent planes. The
+/// conformance kit holds the scheme to it.
+struct Smoothness {
+  int smooth, dart, crease, corner;
+  /// At a smooth vertex the ring's mean mode has the square of the tangents' eigenvalue, as curvature has: what Loop
+  /// chose his vertex weights for.
+  bool square_mean_mode = false;
+};
+inline constexpr Smoothness smooth_surface{1, 1, 1, 0};
+inline constexpr Smoothness continuous_surface{0, 0, 0, 0};
+
 /// A scheme is a small struct, in most cases of constants and static functions; see loop.h and catmull_clark.h.
 ///
 /// - `face_kind`: the split. `radius`: rings of faces around a face that its patch depends on.
 /// - `smooth_vertex(n)`, `smooth_edge()`, `smooth_limit(n)`: masks at a smooth interior vertex of valence n, an edge.
 /// - `crease`: the weights along a crease. `basis`, `Regular`: the regular patches, and their type in Bezier form.
+/// - `smoothness`: what it declares.
 /// - `smooth_tangent(n, first)`: the tangent whose weights follow cos(2 pi (i - first) / n). Two of them a quarter
 ///   turn apart (one by cos, one by sin) span the tangent plane. Empty if the surface has none.
 /// - `crease_cross_tangent(k)`: the tangent that leaves a crease into a sector of k faces with spokes 0..k.
+/// - `dart_vertex(n)`, if the scheme has one: the vertex mask where one sharp edge ends, else `smooth_vertex(n)`.
 /// - `triangle_edge(k)`, if the scheme has one: the edge mask beside k triangles (1 or 2) in the quad split's first
 ///   step, for meshes that ask for smooth triangles.
 template <class S>
@@ -72,6 +86,7 @@ concept Scheme = requires(const S scheme, int n) {
   { S::radius } -> std::convertible_to<int>;
   { scheme.basis } -> std::convertible_to<Basis>;
   { scheme.crease } -> std::convertible_to<CreaseMask>;
+  { scheme.smoothness } -> std::convertible_to<Smoothness>;
   { scheme.smooth_vertex(n) } -> std::same_as<VertexMask>;
   { scheme.smooth_edge() } -> std::same_as<EdgeMask>;
   { scheme.smooth_limit(n) } -> std::same_as<LimitMask>;
@@ -86,6 +101,13 @@ struct Rules {
   S scheme;
   CreaseMethod creases = CreaseMethod::uniform;
   TriangleSubdivision triangles = TriangleSubdivision::catmark;
+
+  /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's.
+  VertexMask vertex(int n, const VertexTransition& to) const {
+    if constexpr (requires { scheme.dart_vertex(n); })
+      if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return scheme.dart_vertex(n);
+    return scheme.smooth_vertex(n);
+  }
 
   /// The mask of a smooth edge between faces of which so many are triangles.
   EdgeMask edge(int triangle_count) const {

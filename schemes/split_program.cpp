@@ -20,13 +20,9 @@ int SplitProgram::Compiler::add_face(const FaceSides& face) {
   return at->second;
 }
 
-void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexMask& mask, const CreaseMask& crease) {
-  VertexStep step{vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness()),
-                  mask,
-                  crease,
-                  ring.vertex,
-                  {},
-                  {}};
+void SplitProgram::Compiler::add_vertex(const Ring& ring, const VertexTransition& to, const VertexMask& mask,
+                                        const CreaseMask& crease) {
+  VertexStep step{to, mask, crease, ring.vertex, {}, {}};
   std::vector<int> faces;
   if (kind_ == FaceKind::quad && ring.closed)
     for (const FaceSides& face : ring.faces) faces.push_back(add_face(face));

@@ -64,7 +64,7 @@ class SplitProgram::Compiler {
   int add_face(const FaceSides& face);
   const FaceSides& face(int id) const { return faces_.at(id); }
   const Ring& ring(int vertex) const { return *rings_.at(vertex); }
-  void add_vertex(const Ring& ring, const VertexMask& mask, const CreaseMask& crease);
+  void add_vertex(const Ring& ring, const VertexTransition& to, const VertexMask& mask, const CreaseMask& crease);
   int triangles_beside(int edge) const;
   void add_edge(int edge, const EdgeMask& mask);
 
@@ -101,8 +101,8 @@ SplitProgram SplitProgram::compile(const Rules<S>& rules, const Neighbourhood& p
     switch (from.kind) {
       case RefinedVertex::Kind::vertex: {
         const Ring& ring = compiler.ring(from.id);
-        compiler.add_vertex(ring, rules.scheme.smooth_vertex(static_cast<int>(ring.spokes.size())),
-                            rules.scheme.crease);
+        const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
+        compiler.add_vertex(ring, to, rules.vertex(static_cast<int>(ring.spokes.size()), to), rules.scheme.crease);
         break;
       }
       case RefinedVertex::Kind::edge:

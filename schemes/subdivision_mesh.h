@@ -122,9 +122,9 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     for (const Ring::Spoke& spoke : ring.spokes) ends.push_back(spoke.end);
     for (const FaceSides& face : ring.faces) faces.push_back(face.id());
     const int n = static_cast<int>(ends.size());
+    const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
     result[static_cast<std::size_t>(v)] =
-        vertex_point(vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness()),
-                     rules_.scheme.smooth_vertex(n), rules_.scheme.crease, this->point(v),
+        vertex_point(to, rules_.vertex(n, to), rules_.scheme.crease, this->point(v),
                      {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
   }
 

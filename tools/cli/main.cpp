@@ -10,6 +10,7 @@
 #include "tools/cli/info.h"
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
+#include "tools/cli/scheme.h"
 #include "tools/cli/unfinished_files.h"
 #include "tools/cli/validate.h"
 
@@ -49,6 +50,7 @@ int parse_and_run(int argc, char** argv) {
   add_eval(app, command);
   add_info(app, command);
   add_validate(app, command);
+  add_scheme(app, command);
 
   try {
     app.parse(argc, argv);

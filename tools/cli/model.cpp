@@ -15,20 +15,20 @@ void print_warnings(const ControlMesh& mesh, std::size_t first) {
     std::cerr << "shaolin: warning: " << mesh.warnings[i] << '\n';
 }
 
-std::vector<std::string> scheme_names() {
+}  // namespace
+
+CLI::Validator is_scheme_name() {
   std::vector<std::string> names;
   for (const BuiltinScheme& scheme : builtin_schemes()) names.emplace_back(scheme.name);
-  return names;
+  return CLI::IsMember(names);
 }
-
-}  // namespace
 
 void add_model_options(CLI::App& app, ModelOptions& options) {
   app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
   app.add_option("--scheme", options.scheme,
                  "Subdivision scheme: " + builtin_scheme_names() +
                      " (default: the file's 't scheme' tag; without it, loop if all faces are triangles, else catmark)")
-      ->check(CLI::IsMember(scheme_names()))
+      ->check(is_scheme_name())
       ->type_name("NAME");
 }
 

@@ -17,6 +17,9 @@ struct ModelOptions {
   std::string scheme;  ///< a built-in scheme; empty: what the mesh asks for, see default_scheme()
 };
 
+/// Accepts the names of the built-in schemes.
+CLI::Validator is_scheme_name();
+
 /// Adds the positional MODEL (required) and --scheme.
 void add_model_options(CLI::App& app, ModelOptions& options);
 

@@ -1,0 +1,7 @@
+#include "scheme_scene.inl"
+
+namespace shaolin {
+
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const RuntimeScheme<FaceKind::quad>&);
+
+}  // namespace shaolin

@@ -1,0 +1,8 @@
+#include "scheme_scene.inl"
+
+namespace shaolin {
+
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh,
+                                                                  const RuntimeScheme<FaceKind::triangle>&);
+
+}  // namespace shaolin

@@ -1,0 +1,29 @@
+#pragma once
+/// `shaolin scheme`: the schemes by name, their masks, and the conformance kit.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "tools/cli/command.h"
+
+namespace shaolin {
+
+/// Prints a line per built-in scheme.
+int scheme_list();
+
+/// Prints a scheme's masks and eigenvalues by valence. Throws InputError for an unknown name.
+int scheme_show(const std::string& name);
+
+struct SchemeCheckOptions {
+  std::string name;
+  std::filesystem::path report;  ///< folder for NAME.html; empty: none
+};
+
+/// Runs the conformance kit and prints its table. Returns exit_check_failed if a check failed. Throws InputError for an
+/// unknown name or a folder that cannot be written to.
+int scheme_check(const SchemeCheckOptions& options);
+
+/// Registers the subcommand.
+void add_scheme(CLI::App& app, Command& command);
+
+}  // namespace shaolin
