@@ -61,7 +61,7 @@ std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
     if (quads) box.add(face_points[at]);
     if (mesh.rules().creases == CreaseMethod::chaikin) box.add(neighbours[at]);  // see face_bounds()
     if (n < 2) continue;
-    const VertexMask mask = mesh.rules().scheme.smooth_vertex(n);
+    const VertexMask mask = mesh.rules().vertex(n, {}, mesh.is_cone(v));
     box.add(detail::sum(detail::sum(detail::scaled(point, mask.vertex), neighbours[at], n * mask.edge), sides,
                         quads ? n * mask.face : 0));
   }

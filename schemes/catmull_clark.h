@@ -25,6 +25,16 @@ struct CatmullClark {
     return {static_cast<double>(n - 2) / n, weight, weight};
   }
 
+  /// With t for all neighbours together and t for all new face points, the means of spokes and diagonals, relative to
+  /// the vertex, go through ((1 - 3 t, 1/4 - t / 2), (1 - 3 t, 1/2 - t / 2)) / 2, of which lambda is an eigenvalue for
+  ///     t = (3/4 lambda - lambda^2 - 1/16) / (7/4 lambda - 3/16).
+  /// lambda is the first Fourier mode's. t lies between 0 and 0.15.
+  static VertexMask cone_vertex(int n) {
+    const double lambda = subdominant(2 * std::numbers::pi / n);
+    const double t = (0.75 * lambda - lambda * lambda - 1.0 / 16) / (1.75 * lambda - 3.0 / 16);
+    return {1 - 2 * t, t / n, t / n};
+  }
+
   /// The mean of both ends and both new face points, not of the face points alone.
   static EdgeMask smooth_edge() { return {0.25, 0.25}; }
 

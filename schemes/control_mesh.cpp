@@ -80,6 +80,8 @@ class MeshCheck {
       }
       require_sharpness(edge.sharpness, "crease", places_.sharp_edges, i);
     }
+    for (std::size_t i = 0; i < mesh_.cones.size(); ++i)
+      if (!has_vertex(mesh_.cones[i])) fail_vertex("cone", mesh_.cones[i], places_.cones, i);
     for (std::size_t i = 0; i < mesh_.sharp_vertices.size(); ++i) {
       const SharpVertex& corner = mesh_.sharp_vertices[i];
       if (!has_vertex(corner.vertex)) fail_vertex("corner", corner.vertex, places_.sharp_vertices, i);

@@ -42,6 +42,7 @@ struct ControlMesh {
 
   std::vector<SharpEdge> sharp_edges;
   std::vector<SharpVertex> sharp_vertices;
+  std::vector<int> cones;  ///< vertices that keep a tangent cone where the smooth rule would give a tangent plane
   std::vector<int> holes;  ///< faces that shape their neighbours and have no surface themselves
   BoundaryInterpolation boundary = BoundaryInterpolation::edge_and_corner;
   CreaseMethod crease_method = CreaseMethod::uniform;

@@ -81,9 +81,9 @@ std::optional<LimitAtCorner> derived_limit(const Patch<S>& patch, int k) {
 
 /// The limit at corner k, or empty while sharpness there still decays or faces around are not of the scheme's kind
 /// (split first). The normal is empty at a corner vertex of more than one face: its eigenvalues leave no common tangent
-/// plane, and each direction into the surface has its own. A dart has no closed form, its masks are derived (see
-/// limit_rows.h): the smooth vertex's (which OpenSubdiv takes) ignore that the sharp edge's own rule changes the
-/// subdivision matrix.
+/// plane, and each direction into the surface has its own. A dart and a cone have no closed form, their masks are
+/// derived (see limit_rows.h): the smooth vertex's (which OpenSubdiv takes) ignore that the sharp edge's own rule
+/// changes the subdivision matrix.
 template <Scheme S>
 std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Neighbourhood& n = patch.configuration->neighbourhood();
@@ -98,6 +98,7 @@ std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Vec3* points = patch.points.data();
   switch (vertex_rule(ring.sharpness, sharpness)) {
     case VertexRule::smooth:
+      if (ring.cone) return detail::derived_limit(patch, k);
       return detail::smooth_limit(scheme, ring, points);
     case VertexRule::dart:
       return detail::derived_limit(patch, k);

@@ -28,6 +28,13 @@ struct LoopMasks {
     return {1 - n * beta, beta, 0};
   }
 
+  /// The mean mode's eigenvalue is 5/8 - n beta; with beta = (1 - cos(2 pi / n)) / (4 n) that is the first Fourier
+  /// mode's, 3/8 + cos(2 pi / n) / 4.
+  static VertexMask cone_vertex(int n) {
+    const double share = 0.25 * (1 - std::cos(2 * std::numbers::pi / n));
+    return {1 - share, share / n, 0};
+  }
+
   static EdgeMask smooth_edge() { return {3.0 / 8, 1.0 / 8}; }
 
   /// The left eigenvector of eigenvalue 1 of (vertex, ring mean): 1 / (n + 3 / (8 beta)) a neighbour.

@@ -216,6 +216,9 @@ void Cutter::set_vertex_sharpness(ManifoldMesh& result) const {
   }
   result.vertex_sharpness.reserve(result.origin.size());
   for (const int origin : result.origin) result.vertex_sharpness.push_back(input[static_cast<std::size_t>(origin)]);
+  std::vector<char> cones(mesh_.positions.size(), 0);
+  for (const int vertex : mesh_.cones) cones[static_cast<std::size_t>(vertex)] = 1;
+  for (const int origin : result.origin) result.is_cone.push_back(cones[static_cast<std::size_t>(origin)]);
 }
 
 void Cutter::set_limits(ManifoldMesh& result, bool faces_stand_alone) const {

@@ -14,6 +14,7 @@ Mesh::Mesh(const ManifoldMesh& topology, std::vector<Vec3> points)
       face_offsets_(topology.face_offsets),
       face_vertices_(topology.face_vertices),
       vertex_sharpness_(topology.vertex_sharpness),
+      is_cone_(topology.is_cone),
       has_limit_(topology.has_limit) {
   corner_at_.assign(points_.size(), {-1, 0});
   build_half_edges();
@@ -141,6 +142,7 @@ Ring Mesh::ring(Corner corner) const {
   Ring ring;
   ring.vertex = vertex_at(corner);
   ring.sharpness = vertex_sharpness(ring.vertex);
+  ring.cone = is_cone(ring.vertex);
   ring.closed = false;
   for (Corner at = first; at.face >= 0;) {
     ring.faces.push_back(face_from(at));

@@ -48,6 +48,8 @@ class Mesh {
 
   const std::vector<Vec3>& points() const { return points_; }
   const Vec3& point(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
+  /// True if the vertex keeps a tangent cone, see ControlMesh::cones.
+  bool is_cone(int vertex) const { return is_cone_[static_cast<std::size_t>(vertex)] != 0; }
   float vertex_sharpness(int vertex) const { return vertex_sharpness_[static_cast<std::size_t>(vertex)]; }
 
   /// An edge's two ends, its sharpness, and that of its halves at either end, one level finer.
@@ -128,7 +130,7 @@ class Mesh {
   std::vector<int> kernel_face_, input_face_;  ///< input face <-> half-edge face; -1 where the kernel has none
   std::vector<float> vertex_sharpness_;
   std::vector<std::array<float, 3>> edge_sharpness_;  ///< its own, then of its halves (see Edge)
-  std::vector<char> has_limit_;
+  std::vector<char> is_cone_, has_limit_;
   std::vector<Corner> corner_at_;
   int degenerate_side_count_ = 0;
 };

@@ -14,6 +14,7 @@ struct MeshPlaces {
   std::vector<int> faces;
   std::vector<int> sharp_edges;
   std::vector<int> sharp_vertices;
+  std::vector<int> cones;
   std::vector<int> holes;
 };
 

@@ -23,6 +23,7 @@ Ring sector(const Ring& ring, int first, int faces) {
   result.vertex = ring.vertex;
   result.closed = false;
   result.sharpness = ring.sharpness;
+  result.cone = ring.cone;
   const auto spokes = ring.spokes.size();
   for (int i = 0; i <= faces; ++i) result.spokes.push_back(ring.spokes[static_cast<std::size_t>(first + i) % spokes]);
   for (int i = 0; i < faces; ++i)
@@ -127,7 +128,9 @@ CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
     copy.vertex = number_of(ring.vertex);
     copy.closed = ring.closed;
     copy.sharpness = ring.sharpness;
-    result.key.insert(result.key.end(), {copy.vertex, copy.closed, static_cast<int>(ring.spokes.size())});
+    copy.cone = ring.cone;
+    result.key.insert(result.key.end(),
+                      {copy.vertex, copy.closed + 2 * copy.cone, static_cast<int>(ring.spokes.size())});
     add_sharpness(ring.sharpness);
     for (const FaceSides& face : ring.faces) copy.faces.push_back(renumbered(face));
     for (const Ring::Spoke& spoke : ring.spokes) {
@@ -250,6 +253,7 @@ Ring Refinement::ring_of_vertex(int v) {
   result.vertex = from_vertex(v);
   result.closed = parent.closed;
   result.sharpness = decayed(parent.sharpness);
+  result.cone = parent.cone;
   const SemiSharpEdges here = halves_around(v);
   for (const Ring::Spoke& spoke : parent.spokes) {
     SemiSharpEdges there(creases_);  // the edge's two halves meet at its new vertex

@@ -244,6 +244,11 @@ class ObjReader {
     }
   }
 
+  void apply_cone(const Tag& tag) {
+    mesh_.cones.insert(mesh_.cones.end(), tag.integers.begin(), tag.integers.end());
+    places_.cones.insert(places_.cones.end(), tag.integers.size(), words_.line());
+  }
+
   void apply_hole(const Tag& tag) {
     mesh_.holes.insert(mesh_.holes.end(), tag.integers.begin(), tag.integers.end());
     places_.holes.insert(places_.holes.end(), tag.integers.size(), words_.line());
@@ -316,7 +321,7 @@ const ObjReader::TagKind* ObjReader::find_tag_kind(std::string_view name) {
       {"creasemethod", "creasemethod 0/0/1 normal|chaikin", is_one_word, &ObjReader::apply_crease_method},
       {"smoothtriangles", "smoothtriangles 0/0/1 smooth|catmark", is_one_word, &ObjReader::apply_smooth_triangles},
       {"scheme", "scheme 0/0/1 name", is_one_word, &ObjReader::apply_scheme},
-      {"cone", "cone n/0/0 vertex...", is_list, &ObjReader::refuse_unsupported},
+      {"cone", "cone n/0/0 vertex...", is_list, &ObjReader::apply_cone},
       {"vertexedit", "vertexedit n/m/k ...", is_anything, &ObjReader::refuse_unsupported},
       {"edgeedit", "edgeedit n/m/k ...", is_anything, &ObjReader::refuse_unsupported},
       {"faceedit", "faceedit n/m/k ...", is_anything, &ObjReader::refuse_unsupported},
@@ -338,6 +343,7 @@ std::string tag_lines(const ControlMesh& mesh) {
   for (const SharpVertex& corner : mesh.sharp_vertices) {
     text += "t corner 1/1/0 " + std::to_string(corner.vertex) + ' ' + in_short(corner.sharpness) + '\n';
   }
+  for (const int vertex : mesh.cones) text += "t cone 1/0/0 " + std::to_string(vertex) + '\n';
   for (const int face : mesh.holes) text += "t hole 1/0/0 " + std::to_string(face) + '\n';
   return text;
 }

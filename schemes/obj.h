@@ -13,7 +13,8 @@ namespace shaolin {
 ///     t interpolateboundary 1/0/0 m t creasemethod 0/0/1 normal|chaikin
 ///     t smoothtriangles 0/0/1 smooth|catmark                       t scheme 0/0/1 loop|catmark|...
 ///     t facevaryinginterpolateboundary 1/0/0 m (accepted, no effect on positions)
-///     t cone 1/0/0 v, t vertexedit ... (parsed; an error that says that they are not supported yet)
+///     t cone n/0/0 v...             (ours, see ControlMesh::cones)
+///     t vertexedit ..., t edgeedit ..., t faceedit ... (an error that says that they are not supported yet)
 ///
 /// whose indices count from 0. Other OBJ statements (vt, vn, g, o, s, usemtl, mtllib, comments) are passed over.
 /// Returns a checked mesh (see check()). Throws InputError with file and line for everything that is malformed:

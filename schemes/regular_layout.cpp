@@ -17,6 +17,7 @@ SplinePoint beyond(int a, int b) { return {2, {a, b}, {2, -1}}; }
 SplinePoint across(int a, int b, int c) { return {3, {a, b, c}, {1, 1, -1}}; }
 
 bool smooth_inside(const Ring& ring) {
+  if (ring.cone && ring.closed) return false;
   const auto sharp = [](const Ring::Spoke& spoke) { return is_sharp(spoke.sharpness); };
   if (ring.closed) return std::none_of(ring.spokes.begin(), ring.spokes.end(), sharp);
   return is_infinite(ring.spokes.front().sharpness) && is_infinite(ring.spokes.back().sharpness) &&

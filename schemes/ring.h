@@ -57,6 +57,7 @@ struct Ring {
   int vertex = 0;
   bool closed = true;   ///< as many faces as spokes; else one face fewer (a boundary or a crease)
   float sharpness = 0;  ///< of the vertex
+  bool cone = false;    ///< keeps a tangent cone (see ControlMesh::cones)
   std::vector<Spoke> spokes;
   std::vector<FaceSides> faces;  ///< each begins at the vertex, then the end of its spoke
 

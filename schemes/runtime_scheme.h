@@ -21,6 +21,7 @@ class SchemeMasks {
   virtual Smoothness smoothness() const = 0;
   virtual VertexMask smooth_vertex(int n) const = 0;
   virtual VertexMask dart_vertex(int n) const { return smooth_vertex(n); }
+  virtual VertexMask cone_vertex(int n) const { return smooth_vertex(n); }
   virtual EdgeMask smooth_edge() const = 0;
   virtual LimitMask smooth_limit(int n) const = 0;
   virtual TangentMask smooth_tangent(int n, double first) const = 0;
@@ -36,6 +37,10 @@ class MasksOf final : public SchemeMasks {
   CreaseMask crease() const override { return scheme_.crease; }
   Smoothness smoothness() const override { return scheme_.smoothness; }
   VertexMask smooth_vertex(int n) const override { return scheme_.smooth_vertex(n); }
+  VertexMask cone_vertex(int n) const override {
+    if constexpr (requires { scheme_.cone_vertex(n); }) return scheme_.cone_vertex(n);
+    return scheme_.smooth_vertex(n);
+  }
   VertexMask dart_vertex(int n) const override {
     if constexpr (requires { scheme_.dart_vertex(n); }) return scheme_.dart_vertex(n);
     return scheme_.smooth_vertex(n);
@@ -65,6 +70,7 @@ struct RuntimeScheme {
 
   VertexMask smooth_vertex(int n) const { return masks->smooth_vertex(n); }
   VertexMask dart_vertex(int n) const { return masks->dart_vertex(n); }
+  VertexMask cone_vertex(int n) const { return masks->cone_vertex(n); }
   EdgeMask smooth_edge() const { return masks->smooth_edge(); }
   LimitMask smooth_limit(int n) const { return masks->smooth_limit(n); }
   TangentMask smooth_tangent(int n, double first) const { return masks->smooth_tangent(n, first); }

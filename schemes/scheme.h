@@ -78,6 +78,9 @@ inline constexpr Smoothness continuous_surface{0, 0, 0, 0};
 ///   turn apart (one by cos, one by sin) span the tangent plane. Empty if the surface has none.
 /// - `crease_cross_tangent(k)`: the tangent that leaves a crease into a sector of k faces with spokes 0..k.
 /// - `dart_vertex(n)`, if the scheme has one: the vertex mask where one sharp edge ends, else `smooth_vertex(n)`.
+/// - `cone_vertex(n)`, if the scheme has one: the vertex mask at a vertex that keeps a tangent cone. It gives the
+/// ring's
+///   mean mode the eigenvalue of the first Fourier mode, so that height and extent shrink alike.
 /// - `triangle_edge(k)`, if the scheme has one: the edge mask beside k triangles (1 or 2) in the quad split's first
 ///   step, for meshes that ask for smooth triangles.
 template <class S>
@@ -103,9 +106,11 @@ struct Rules {
   TriangleSubdivision triangles = TriangleSubdivision::catmark;
 
   /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's.
-  VertexMask vertex(int n, const VertexTransition& to) const {
+  VertexMask vertex(int n, const VertexTransition& to, bool cone) const {
     if constexpr (requires { scheme.dart_vertex(n); })
       if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return scheme.dart_vertex(n);
+    if constexpr (requires { scheme.cone_vertex(n); })
+      if (cone) return scheme.cone_vertex(n);
     return scheme.smooth_vertex(n);
   }
 

@@ -13,7 +13,7 @@ template <Scheme S>
 class SchemeSurface final : public LimitSurface {
  public:
   explicit SchemeSurface(ControlMesh control, const S& scheme = {})
-      : control_(std::move(control)), mesh_(control_, scheme), table_(mesh_.rules()) {}
+      : control_(std::move(control)), mesh_(control_, scheme) {}
 
   int face_count() const override { return control_.face_count(); }
   int sub_count(int face) const override { return splits_by_corner(face) ? control_.face_size(face) : 1; }
@@ -29,7 +29,7 @@ class SchemeSurface final : public LimitSurface {
 
   /// The patch of a face, or of an n-gon's corner.
   Patch<S> patch(int face, int sub) const {
-    Patch<S> root = mesh_.patch({face, sub}, table_);
+    Patch<S> root = mesh_.patch({face, sub});
     return splits_by_corner(face) ? root.child(0) : root;
   }
 
@@ -37,7 +37,6 @@ class SchemeSurface final : public LimitSurface {
   bool splits_by_corner(int face) const { return control_.face_size(face) != Domain<S::face_kind>::corner_count; }
 
   const SubdivisionMesh<S>& mesh() const { return mesh_; }
-  ConfigurationTable<S>& table() const { return table_; }
 
  private:
   void check_range(const SurfaceParameter& at) const {
@@ -55,7 +54,6 @@ class SchemeSurface final : public LimitSurface {
 
   ControlMesh control_;
   SubdivisionMesh<S> mesh_;
-  mutable ConfigurationTable<S> table_;
 };
 
 }  // namespace shaolin

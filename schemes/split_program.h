@@ -102,7 +102,8 @@ SplitProgram SplitProgram::compile(const Rules<S>& rules, const Neighbourhood& p
       case RefinedVertex::Kind::vertex: {
         const Ring& ring = compiler.ring(from.id);
         const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
-        compiler.add_vertex(ring, to, rules.vertex(static_cast<int>(ring.spokes.size()), to), rules.scheme.crease);
+        compiler.add_vertex(ring, to, rules.vertex(static_cast<int>(ring.spokes.size()), to, ring.cone),
+                            rules.scheme.crease);
         break;
       }
       case RefinedVertex::Kind::edge:

@@ -1,6 +1,7 @@
 #pragma once
 /// Subdivision meshes: global and local refinement, parent and child, limit points and normals, chord normals.
 #include <memory>
+#include <mutex>
 #include <type_traits>
 
 #include "configuration.h"
@@ -22,9 +23,10 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   /// Level 0. Throws InputError if the mesh does not suit the scheme. O(size log size).
   explicit SubdivisionMesh(const ControlMesh& control, const S& scheme = {})
       : SubdivisionMesh(cut_to_manifold(control, scheme.basis == Basis::linear), control.positions, nullptr,
-                        {scheme, control.crease_method, control.triangle_subdivision}) {}
+                        std::make_shared<ConfigurationTable<S>>(
+                            Rules<S>{scheme, control.crease_method, control.triangle_subdivision})) {}
 
-  const Rules<S>& rules() const { return rules_; }
+  const Rules<S>& rules() const { return table_->rules(); }
 
   int level() const { return parent_ ? parent_->level() + 1 : 0; }
 
@@ -45,31 +47,45 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }  ///< quad split only
 
   /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
-  Patch<S> patch(Mesh::Corner corner, ConfigurationTable<S>& table) const {
-    auto match = table.match(this->neighbourhood(corner, S::radius));
+  Patch<S> patch(Mesh::Corner corner) const {
+    auto match = table_->match(this->neighbourhood(corner, S::radius));
     Patch<S> result{match.configuration, {}};
     result.points.reserve(match.vertices.size());
     for (const int vertex : match.vertices) result.points.push_back(this->point(vertex));
     return result;
   }
 
+  /// The configurations of the patches of all levels.
+  ConfigurationTable<S>& table() const { return *table_; }
+
   /// Limit position and normal at corner k of a face, seen from that face.
-  LimitSample limit(int face, int k, ConfigurationTable<S>& table) const {
-    for (Patch<S> patch = this->patch({face, k}, table);; patch = patch.child(0))
+  LimitSample limit(int face, int k) const {
+    for (Patch<S> patch = this->patch({face, k});; patch = patch.child(0))
       if (std::optional<LimitSample> limit = evaluate_corner(patch, 0)) return *limit;
   }
 
+  /// The limit position of a vertex that has a face; found once, then kept. Thread-safe.
+  const Vec3& limit_point(int vertex) const {
+    std::call_once(limits_made_, [&] { limits_ = std::make_unique<KeptLimits>(this->vertex_count()); });
+    const auto at = static_cast<std::size_t>(vertex);
+    std::call_once(limits_->known[at], [&] {
+      const Mesh::Corner corner = this->corner_at(vertex);
+      limits_->points[at] = limit(corner.face, corner.place).position;
+    });
+    return limits_->points[at];
+  }
+
   /// The unit normal of the plane through a face's limit points (quads: section 8.2 of the paper).
-  Vec3 chord_normal(int face, ConfigurationTable<S>& table) const {
+  Vec3 chord_normal(int face) const {
     std::vector<Vec3> limit_points;
-    for (int k = 0; k < this->face_size(face); ++k) limit_points.push_back(limit(face, k, table).position);
+    for (const int vertex : this->face(face)) limit_points.push_back(limit_point(vertex));
     return Base::chord_normal(limit_points);
   }
 
  private:
   SubdivisionMesh(const ManifoldMesh& topology, const std::vector<Vec3>& points, const SubdivisionMesh* parent,
-                  Rules<S> rules)
-      : Base(topology, parent ? points : of_cut_vertices(topology, points)), rules_(std::move(rules)), parent_(parent) {
+                  std::shared_ptr<ConfigurationTable<S>> table)
+      : Base(topology, parent ? points : of_cut_vertices(topology, points)), table_(std::move(table)), parent_(parent) {
     int next = 0;
     for (const int f : this->faces()) {
       first_child_.push_back(next);
@@ -91,7 +107,17 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   ManifoldMesh refined_topology() const;
   void add_sharpness(ManifoldMesh& next) const;
 
-  Rules<S> rules_;
+  /// Limit points by vertex, and which are known.
+  struct KeptLimits {
+    explicit KeptLimits(int vertices)
+        : points(static_cast<std::size_t>(vertices)), known(static_cast<std::size_t>(vertices)) {}
+    std::vector<Vec3> points;
+    std::vector<std::once_flag> known;
+  };
+
+  std::shared_ptr<ConfigurationTable<S>> table_;
+  mutable std::once_flag limits_made_;
+  mutable std::unique_ptr<KeptLimits> limits_;
   const SubdivisionMesh* parent_;
   std::vector<int> first_child_, parent_face_;
 };
@@ -124,7 +150,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     const int n = static_cast<int>(ends.size());
     const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
     result[static_cast<std::size_t>(v)] =
-        vertex_point(to, rules_.vertex(n, to), rules_.scheme.crease, this->point(v),
+        vertex_point(to, rules().vertex(n, to, ring.cone), rules().scheme.crease, this->point(v),
                      {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
   }
 
@@ -150,7 +176,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     };
     const Vec3 *left = side(half), *right = side(this->connectivity().opposite_halfedge_handle(half));
     result[static_cast<std::size_t>(child_of_edge(e))] =
-        edge_point(rules_.edge(triangles), edge_crease_share(edge.sharpness, edge.half_a, edge.half_b),
+        edge_point(rules().edge(triangles), edge_crease_share(edge.sharpness, edge.half_a, edge.half_b),
                    this->point(edge.a), this->point(edge.b), left, right);
   }
   return result;
@@ -159,7 +185,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
 template <Scheme S>
 ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
   ManifoldMesh next;
-  next.crease_method = rules_.creases;
+  next.crease_method = rules().creases;
   next.face_offsets = {0};
   const auto add = [&](int face, std::initializer_list<int> corners) {
     next.face_vertices.insert(next.face_vertices.end(), corners);
@@ -197,6 +223,8 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
   next.vertex_sharpness.assign(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())), 0);
   for (const int v : this->vertices())
     next.vertex_sharpness[static_cast<std::size_t>(v)] = decayed(this->vertex_sharpness(v));
+  next.is_cone.assign(next.vertex_sharpness.size(), 0);
+  for (const int v : this->vertices()) next.is_cone[static_cast<std::size_t>(v)] = this->is_cone(v);
   const auto set = [&](int a, int b, float sharpness) {
     if (is_sharp(sharpness)) next.sharp_edges[ManifoldMesh::edge_key(a, b)] = sharpness;
   };
@@ -217,7 +245,7 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
 
 template <Scheme S>
 std::unique_ptr<SubdivisionMesh<S>> SubdivisionMesh<S>::refine() const {
-  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this, rules_));
+  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this, table_));
   for (const int f : this->faces())
     for (int k = 0; k < child_count(f); ++k) next->parent_face_.push_back(f);
   return next;

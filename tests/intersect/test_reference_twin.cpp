@@ -21,13 +21,13 @@ struct Tessellation {
 
 /// The limit points of all vertices that a face with a limit has.
 template <Scheme S>
-std::vector<Vec3> limit_points(const SubdivisionMesh<S>& mesh, ConfigurationTable<S>& table) {
+std::vector<Vec3> limit_points(const SubdivisionMesh<S>& mesh) {
   std::vector<Vec3> result(static_cast<std::size_t>(mesh.vertex_count()), Vec3::Zero());
   std::vector<char> known(result.size());
   for (const int f : mesh.faces())
     for (int k = 0; mesh.has_limit(f) && k < mesh.face_size(f); ++k) {
       const auto v = static_cast<std::size_t>(mesh.face(f)[static_cast<std::size_t>(k)]);
-      if (!known[v]) result[v] = mesh.limit(f, k, table).position;
+      if (!known[v]) result[v] = mesh.limit(f, k).position;
       known[v] = true;
     }
   return result;
@@ -55,10 +55,9 @@ template <Scheme S>
 Tessellation tessellate(const ControlMesh& control, const S& scheme, int levels) {
   std::vector<std::unique_ptr<SubdivisionMesh<S>>> meshes;
   meshes.push_back(std::make_unique<SubdivisionMesh<S>>(control, scheme));
-  ConfigurationTable<S> table(meshes.front()->rules());
   for (int level = 0; level < levels; ++level) meshes.push_back(meshes.back()->refine());
   const SubdivisionMesh<S>&fine = *meshes.back(), &coarse = *fine.parent();
-  const std::vector<Vec3> points = limit_points(fine, table);
+  const std::vector<Vec3> points = limit_points(fine);
   const auto at = [&](int vertex) -> const Vec3& { return points[static_cast<std::size_t>(vertex)]; };
 
   Tessellation result;

@@ -14,7 +14,7 @@ TEMPLATE_TEST_CASE("A torus is regular everywhere, a pole's faces are not", "[sc
   using S = TestType;
   const SchemeSurface<S> regular(torus(S::name, 5, 7));
   for (int face = 0; face < regular.face_count(); ++face) CHECK(regular.patch(face, 0).is_regular());
-  CHECK(regular.table().size() == 1);
+  CHECK(regular.mesh().table().size() == 1);
   const SchemeSurface<S> irregular(poles(S::name, 7));
   for (int face = 0; face < irregular.face_count(); ++face) CHECK_FALSE(irregular.patch(face, 0).is_regular());
 }
@@ -52,9 +52,9 @@ TEMPLATE_TEST_CASE("The configurations around an irregular corner close", "[sche
     };
     // Sharpness below 10 is gone after ten levels, rings repeat after a few more.
     descend(14);
-    const std::size_t size = surface.table().size();
+    const std::size_t size = surface.mesh().table().size();
     descend(40);
-    CHECK(surface.table().size() == size);
+    CHECK(surface.mesh().table().size() == size);
   }
 }
 

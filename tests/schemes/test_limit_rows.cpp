@@ -12,8 +12,8 @@ namespace {
 
 /// The patch at corner 0 of face 0, split towards that corner until its configuration repeats itself.
 template <Scheme S>
-Patch<S> stationary(const SubdivisionMesh<S>& mesh, ConfigurationTable<S>& table) {
-  Patch<S> patch = mesh.patch({0, 0}, table);
+Patch<S> stationary(const SubdivisionMesh<S>& mesh) {
+  Patch<S> patch = mesh.patch({0, 0});
   for (int level = 0; level < 20 && patch.child(0).configuration != patch.configuration; ++level)
     patch = patch.child(0);
   REQUIRE(patch.child(0).configuration == patch.configuration);
@@ -29,8 +29,7 @@ struct Difference {
 template <Scheme S>
 Difference difference(const ControlMesh& control) {
   const SubdivisionMesh<S> mesh(control);
-  ConfigurationTable<S> table(mesh.rules());
-  Patch<S> patch = stationary(mesh, table);
+  Patch<S> patch = stationary(mesh);
   const std::optional<LimitRows>& rows = patch.configuration->derived_limit(0);
   REQUIRE(rows);
   Difference result;
@@ -87,8 +86,7 @@ TEMPLATE_TEST_CASE("A dart's derived limit is where refinement goes", "[schemes]
     ControlMesh control = shaken(poles(S::name, n), 0.3);
     control.sharp_edges.push_back({0, control.face(0)[1], 10});
     const SubdivisionMesh<S> mesh(control);
-    ConfigurationTable<S> table(mesh.rules());
-    Patch<S> patch = stationary(mesh, table);
+    Patch<S> patch = stationary(mesh);
     const std::optional<LimitAtCorner> derived = corner_limit(patch, 0);
     REQUIRE(derived);
     CHECK((derived->position - detail::limit_by_refinement(patch, 0).position).norm() < 1e-14);

@@ -195,32 +195,29 @@ TEMPLATE_TEST_CASE("Child k of a face holds its corner k in the parent's orienta
 TEST_CASE("Chord normals are right-handed; a skew quad's is that of its diagonals", "[schemes][mesh]") {
   CHECK((TriangleMesh::chord_normal({{0, 0, 0}, {3, 0, 0}, {1, 2, 0}}) - Vec3::UnitZ()).norm() < 1e-15);
   CHECK((QuadMesh::chord_normal({{0, 0, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}}) - Vec3::UnitZ()).norm() < 1e-15);
-  ConfigurationTable<CatmullClark> table;
   const SubdivisionMesh<CatmullClark> body(prism(5));
-  CHECK((body.chord_normal(0, table) + Vec3::UnitZ()).norm() < 1e-14);
-  CHECK((body.chord_normal(1, table) - Vec3::UnitZ()).norm() < 1e-14);
+  CHECK((body.chord_normal(0) + Vec3::UnitZ()).norm() < 1e-14);
+  CHECK((body.chord_normal(1) - Vec3::UnitZ()).norm() < 1e-14);
 }
 
 TEST_CASE("Limits at the vertices of Platonic bodies", "[schemes][mesh]") {
   // Loop, valence 4: (1 - 4 w) p + w sum(neighbours), w = 31/220; an octahedron's neighbours sum to 0.
-  ConfigurationTable<Loop> triangles;
   const SubdivisionMesh<Loop> octahedron(
       mesh_of({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
               {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}));
   for (int k = 0; k < 3; ++k) {
-    const LimitSample sample = octahedron.limit(0, k, triangles);
+    const LimitSample sample = octahedron.limit(0, k);
     const Vec3& p = octahedron.point(octahedron.face(0)[static_cast<std::size_t>(k)]);
     CHECK((sample.position - 24.0 / 55 * p).norm() < 1e-15);
     CHECK((sample.normal - p).norm() < 1e-14);
   }
   // Catmull-Clark, valence 3: (9 p + 4 sum(edge ends) + sum(diagonals)) / 24; a cube's sums are p and -p.
-  ConfigurationTable<CatmullClark> quads;
   const SubdivisionMesh<CatmullClark> cube(prism(4));
   for (const int f : cube.faces())
     for (int k = 0; k < 4; ++k) {
       const Vec3& p = cube.point(cube.face(f)[static_cast<std::size_t>(k)]);
       // The prism over a square of circumradius 1 is no cube but its affine image: limits go with it, normals not.
-      CHECK((cube.limit(f, k, quads).position - 0.5 * p).norm() < 1e-15);
+      CHECK((cube.limit(f, k).position - 0.5 * p).norm() < 1e-15);
     }
 }
 

@@ -42,6 +42,7 @@ void check_equal(const ControlMesh& a, const ControlMesh& b) {
   CHECK(a.boundary == b.boundary);
   CHECK(a.crease_method == b.crease_method);
   CHECK(a.triangle_subdivision == b.triangle_subdivision);
+  CHECK(a.cones == b.cones);
   CHECK(a.scheme == b.scheme);
 }
 
@@ -227,6 +228,7 @@ TEST_CASE("What is written is read back bit for bit", "[schemes][obj]") {
     mesh.sharp_vertices.push_back({face[2], static_cast<float>(std::pow(sharpness(random), 20) * 1e-20)});
   }
   mesh.holes = {3, 1, 4};
+  mesh.cones = {2, 0};
   mesh.boundary = BoundaryInterpolation::none;
   mesh.crease_method = CreaseMethod::chaikin;
   mesh.triangle_subdivision = TriangleSubdivision::smooth;

@@ -110,8 +110,9 @@ TEST_CASE("A tag's index is reported at its own line, wherever that is", "[schem
   check_error("t hole 1/0/0 0\n" + tetrahedron + "t hole 2/0/0 1 9\n", 10, {"face 9"});
 }
 
+TEST_CASE("A cone's vertex must exist", "[schemes][obj]") { check_tag_error("t cone 1/0/0 9", {"cone", "vertex 9"}); }
+
 TEST_CASE("Tags that are not supported yet say so", "[schemes][obj]") {
-  check_tag_error("t cone 1/0/0 0", {"'cone'", "not supported yet"});
   check_tag_error("t vertexedit 2/1/3 0 0 0.5 add P value", {"'vertexedit'", "not supported yet"});
   check_tag_error("t edgeedit 1/1/1 0 0.5 add", {"'edgeedit'", "not supported yet"});
   check_tag_error("t faceedit 1/0/0 0", {"'faceedit'", "not supported yet"});

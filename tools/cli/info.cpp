@@ -71,6 +71,7 @@ void print_vertices(const MeshCounts& counts) {
   print_heading("Vertices");
   print_count("all", counts.vertices);
   print_count("smooth", counts.smooth);
+  print_count("conical", counts.conical);
   print_count("dart", counts.dart);
   print_count("crease", counts.crease);
   print_count("corner", counts.corner);

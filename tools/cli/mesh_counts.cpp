@@ -54,6 +54,7 @@ struct Star {
   int edges = 0, sharp_edges = 0, boundary_edges = 0;
   int faces = 0;
   float sharpness = 0;  ///< by its tag
+  bool cone = false;
 };
 
 std::vector<Star> stars(const ControlMesh& mesh, const EdgeMap& edges) {
@@ -67,6 +68,7 @@ std::vector<Star> stars(const ControlMesh& mesh, const EdgeMap& edges) {
   }
   for (const int vertex : mesh.face_vertices) ++stars[vertex].faces;
   for (const SharpVertex& tag : mesh.sharp_vertices) stars[tag.vertex].sharpness = tag.sharpness;
+  for (const int vertex : mesh.cones) stars[vertex].cone = true;
   return stars;
 }
 
@@ -84,7 +86,8 @@ std::size_t& kind_count(const Star& star, BoundaryInterpolation boundary, MeshCo
   const bool boundary_corner = boundary == BoundaryInterpolation::edge_and_corner && star.faces == 1;
   if (star.sharpness > 0 || boundary_corner || star.sharp_edges > 2) return counts.corner;
   if (star.sharp_edges == 2) return counts.crease;
-  return star.sharp_edges == 1 ? counts.dart : counts.smooth;
+  if (star.sharp_edges == 1) return counts.dart;
+  return star.cone ? counts.conical : counts.smooth;
 }
 
 void count_vertex(const Star& star, BoundaryInterpolation boundary, int regular_valence, MeshCounts& counts) {

@@ -81,20 +81,18 @@ class Kit {
   }
 
  private:
-  /// A mesh of a star with its table of configurations.
+  /// The mesh of a star.
   struct Star {
-    Star(const S& scheme, StarKind star, int faces)
-        : control(vertex_star(kind, star, faces)), mesh(control, scheme), table(mesh.rules()) {}
+    Star(const S& scheme, StarKind star, int faces) : control(vertex_star(kind, star, faces)), mesh(control, scheme) {}
     /// The patch of face 0, split towards vertex 0 until its configuration repeats itself.
     Patch<S> stationary() {
-      Patch<S> patch = mesh.patch({0, 0}, table);
+      Patch<S> patch = mesh.patch({0, 0});
       for (int level = 0; level < 8 && patch.child(0).configuration != patch.configuration; ++level)
         patch = patch.child(0);
       return patch;
     }
     ControlMesh control;
     SubdivisionMesh<S> mesh;
-    ConfigurationTable<S> table;
   };
 
   /// Calls visit(kind, faces) for every star that the kit looks at.
@@ -128,7 +126,7 @@ class Kit {
     Worst sums("weights sum to one", 1e-13, "a constant control net does not stay constant");
     each_star([&](StarKind star, int faces) {
       Star s(scheme_, star, faces);
-      const Patch<S> patch = s.mesh.patch({0, 0}, s.table);
+      const Patch<S> patch = s.mesh.patch({0, 0});
       for (int k = 0; k < patch.configuration->child_count(); ++k) {
         const Eigen::MatrixXd matrix =
             matrix_of(patch.configuration->child(k).program, patch.configuration->point_count());
@@ -353,7 +351,7 @@ class Kit {
       for (const int faces : {1, regular / 2, regular}) {
         if (star == StarKind::smooth && faces < 3) continue;
         Star s(scheme_, star, faces);
-        Patch<S> patch = s.mesh.patch({0, 0}, s.table);
+        Patch<S> patch = s.mesh.patch({0, 0});
         look_at(patch, subject(star, faces));
         for (int level = 0; level < 3; ++level) {
           for (int k = 0; k < 4; ++k) look_at(patch.child(k), subject(star, faces));

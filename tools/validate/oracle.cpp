@@ -29,6 +29,7 @@ SubdivisionRules rules_of(const ControlMesh& mesh, const std::string& scheme) {
   if (at == known.end())
     throw InputError("OpenSubdiv has no scheme '" + scheme +
                      "' to hold it against; expected loop, catmark or bilinear");
+  if (!mesh.cones.empty()) throw InputError("OpenSubdiv has no conical vertices to hold the surface against");
   SubdivisionRules rules{at->second, {}};
   rules.options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
   rules.options.SetCreasingMethod(mesh.crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
