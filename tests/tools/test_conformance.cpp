@@ -41,7 +41,6 @@ struct WrongCreaseLimit : Loop {
 
 /// A square root where Loop squares: 0.201 instead of 3/16 at valence 3.
 struct RootOfSquare : LoopMasks<RootOfSquare> {
-  static constexpr const char* name = "root";
   static constexpr Smoothness smoothness = Loop::smoothness;
   static double neighbour_weight(int n) {
     return (5.0 / 8 - std::sqrt(3 + 2 * std::cos(2 * std::numbers::pi / n)) / 64) / n;
