@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,14 +14,11 @@ namespace {
 /// rows come with errors up to 1e-12, those of different Fourier modes are more than 1e-5 apart up to valence 1,000.
 constexpr double same = 1e-9;
 
-/// An orthonormal basis of the left eigenvectors of an eigenvalue of multiplicity `count`: the directions that
-/// matrix^T - eigenvalue shrinks most. (Better than the eigenvectors that come with the eigenvalues, which lose half
-/// their digits where two coincide.)
+/// An orthonormal basis of the left eigenvectors of an eigenvalue of multiplicity `count`. (Better than the
+/// eigenvectors that come with the eigenvalues, which lose half their digits where two coincide.)
 Eigen::MatrixXd left_eigenvectors(const Eigen::MatrixXd& matrix, double eigenvalue, int count) {
   const Eigen::Index n = matrix.rows();
-  const Eigen::MatrixXd shifted = matrix.transpose() - eigenvalue * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(shifted, Eigen::ComputeFullV);
-  return svd.matrixV().rightCols(count);
+  return null_space(matrix.transpose() - eigenvalue * Eigen::MatrixXd::Identity(n, n), count);
 }
 
 /// The ring around the origin of a plane, counter-clockwise: spokes at distance 1, diagonals (of quads) between them.
@@ -61,6 +57,12 @@ std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return sorted;
+}
+
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& matrix, int count) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix.transpose());
+  const Eigen::MatrixXd rotation = qr.householderQ();
+  return rotation.rightCols(count);
 }
 
 std::optional<LimitRows> limit_rows(const Eigen::MatrixXd& matrix, const Ring& ring) {

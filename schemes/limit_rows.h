@@ -17,6 +17,10 @@ Eigen::MatrixXd matrix_of(const SplitProgram& program, int parent_points);
 /// Its eigenvalues, the largest modulus first.
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// An orthonormal basis of the `count` directions that a square matrix shrinks most: its null space, for a matrix of
+/// that nullity. By a pivoted QR decomposition of the transpose, whose last columns are orthogonal to all rows. O(n^3).
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& matrix, int count);
+
 /// Masks over the points that the matrix stands for: the limit position, and two tangents if the surface has a tangent
 /// plane there. Their cross product is the outward normal times a positive factor.
 struct LimitRows {

@@ -1,6 +1,5 @@
 #include "tools/conformance/characteristic_map.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
 
@@ -13,8 +12,7 @@ namespace {
 /// The two right eigenvectors of the double eigenvalue, combined so that spokes 0 and 1 stand where they should.
 Eigen::MatrixX2d layout(const Eigen::MatrixXd& matrix, double eigenvalue, const Ring& ring) {
   const Eigen::Index n = matrix.rows();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(matrix - eigenvalue * Eigen::MatrixXd::Identity(n, n), Eigen::ComputeFullV);
-  const Eigen::MatrixX2d basis = svd.matrixV().rightCols(2);
+  const Eigen::MatrixX2d basis = null_space(matrix - eigenvalue * Eigen::MatrixXd::Identity(n, n), 2);
   const double step = 2 * std::numbers::pi / static_cast<double>(ring.spokes.size());
   Eigen::Matrix2d spokes, wanted;
   spokes << basis.row(ring.spokes[0].end), basis.row(ring.spokes[1].end);
