@@ -43,7 +43,7 @@ TEMPLATE_TEST_CASE("A cone's mean mode shrinks as its first Fourier mode does", 
     CHECK(moduli[0] == Approx(1).epsilon(1e-12));
     for (const int i : {1, 2, 3})
       CHECK(moduli[static_cast<std::size_t>(i)] == Approx(subdominant(S::face_kind, n)).epsilon(1e-7));
-    CHECK(moduli[4] < moduli[3] * (1 - 1e-4));
+    for (std::size_t i = 4; i < moduli.size(); ++i) CHECK(moduli[i] < moduli[3] * (1 - 1e-4));
   }
 }
 
