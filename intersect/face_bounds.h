@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "../schemes/subdivision_mesh.h"
-#include "box.h"
+#include "limit_bounds.h"
 
 namespace shaolin {
 
@@ -68,10 +68,25 @@ std::vector<Box> corner_bounds(const SubdivisionMesh<S>& mesh) {
   return result;
 }
 
+namespace detail {
+
+/// Where masks have negative weights: of patches two splits down, whose neighbourhoods are a third as wide.
+template <Scheme S>
+std::vector<Box> split_face_bounds(const SubdivisionMesh<S>& mesh) {
+  std::vector<Box> result;
+  for (const int f : mesh.faces())
+    result.push_back(mesh.has_limit(f) ? split_limit_bound(mesh.patch({f, 0}), 2) : Box());
+  return result;
+}
+
+}  // namespace detail
+
 /// For every face a box that holds its limit: of the boxes of its corners, expanded where refinement may leave the hull
-/// (under Chaikin's rule, see hull_expansion.h; there the boxes hold the control points too). O(size).
+/// (under Chaikin's rule, see hull_expansion.h; there the boxes hold the control points too). O(size), without refining
+/// anything, for masks that are convex combinations; else every face is split twice.
 template <Scheme S>
 std::vector<Box> face_bounds(const SubdivisionMesh<S>& mesh) {
+  if (!mesh.table().is_convex()) return detail::split_face_bounds(mesh);
   const std::vector<Box> corners = corner_bounds(mesh);
   std::vector<float> sharpest(corners.size(), 0);
   for (const int e : mesh.edges()) {

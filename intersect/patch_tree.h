@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "../schemes/patch.h"
-#include "box.h"
+#include "limit_bounds.h"
 #include "net.h"
 
 namespace shaolin {
@@ -18,12 +18,13 @@ struct TreeTotals {
 /// A patch with the affine map of its parameters to those of the tree's root. Regular patches hold their polynomial's
 /// Bezier points, irregular ones a configuration and control points; either way the limit lies in the points' hull
 /// (irregular ones: expanded as their configuration says).
-/// Whether a patch is a leaf depends on the patch alone, so the tree that rays grow is the same in whatever order they
-/// come.
+/// Without polynomials a patch is cut until it is nearly flat, at most three levels deep; what is finer is found ray by
+/// ray (refining_finish.h), for no ray comes that way again. Whether a patch is a leaf depends on the patch alone, so
+/// the tree that rays grow is the same in whatever order they come.
 template <Scheme S>
 class PatchNode {
  public:
-  using Regular = typename S::Regular;
+  using Regular = RegularPatch<S::face_kind>;
   using D = Domain<S::face_kind>;
   struct Children;
 
@@ -33,7 +34,7 @@ class PatchNode {
   /// is much larger than its patch, so that box is tightened by the children's.
   PatchNode(Patch<S> patch, int level, TreeTotals& totals) : level_(level) {
     set(std::move(patch));
-    if (is_regular()) return;
+    if (is_regular() || leaf_) return;
     const Children& quarters = children(totals);
     box_ = Box();
     for (const PatchNode& child : quarters.nodes) box_.add(child.box());
@@ -57,7 +58,7 @@ class PatchNode {
   /// beyond five splits of a polynomial the finish splits on its own.
   bool is_leaf() const { return leaf_; }
 
-  /// True for an irregular patch so far down that it may lie within rounding of a ray.
+  /// True for an irregular patch so far down that it may lie within rounding of a ray. (Leaves are none.)
   bool is_tiny() const { return !is_regular() && level_ >= tiny_level; }
 
   /// The four children, or null if no ray needed them yet.
@@ -72,6 +73,7 @@ class PatchNode {
 
  private:
   static constexpr int deepest_polynomial_split = 5;
+  static constexpr int deepest_kept_refinement = 3;
   /// From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked there
   /// must not depend on whether its children are known already.
   static constexpr int tiny_level = 24;
@@ -90,23 +92,32 @@ class PatchNode {
       return set(patch.regular());
     }
     irregular_ = std::make_unique<Patch<S>>(std::move(patch));
-    bound(irregular_->points, irregular_->configuration->hull_expansion());
+    box_ = limit_bound(*irregular_);
+    add_slack();
+    leaf_ = basis_of(irregular_->configuration->scheme()) == Basis::none &&
+            (level_ >= deepest_kept_refinement || is_flat(*irregular_));
   }
 
   void set(const Regular& piece) {
     regular_ = std::make_unique<Net>(piece);
-    bound(piece.b, 0);
+    for (const Vec3& point : piece.b) box_.add(point);
+    add_slack();
     leaf_ = level_ - regular_level_ >= deepest_polynomial_split || is_flat(piece);
   }
 
   /// The control points carry the roundings that RayFrame::error bounds; a box test must not be stricter.
-  template <class Points>
-  void bound(const Points& points, double expansion) {
-    for (const Vec3& point : points) box_.add(point);
-    box_ = box_.expanded(expansion);
+  void add_slack() {
     const double slack = 160 * unit_roundoff * box_.largest_coordinate();
     box_.lower.array() -= slack;
     box_.upper.array() += slack;
+  }
+
+  /// The surface adds at most an eighth of its sides to its flat part.
+  static bool is_flat(const Patch<S>& patch) {
+    const std::optional<FlatPart> part = flat_part(patch);
+    if (!part) return false;
+    const double side = std::min(part->along_u.norm(), part->along_v.norm());
+    return (part->remainder.upper - part->remainder.lower).maxCoeff() <= 0.125 * side;
   }
 
   static bool is_flat(const Regular& piece) {

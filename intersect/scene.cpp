@@ -7,6 +7,8 @@ namespace shaolin {
 Scene::Scene(ControlMesh mesh, const std::string& scheme)
     : implementation_(with_scheme(scheme, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type); })) {
 }
+Scene::Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks)
+    : implementation_(with_masks(masks, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type); })) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;

@@ -11,6 +11,7 @@
 namespace shaolin {
 
 class LimitSurface;
+class SchemeMasks;
 
 /// One limit surface, ready for rays. Queries are const and may run concurrently; refinement that they cause is kept
 /// and never changes an answer: results are bit-identical for any number of threads and any order of rays.
@@ -19,6 +20,9 @@ class Scene {
   /// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces;
   /// nothing is refined before a ray asks. Throws InputError as make_limit_surface() does.
   explicit Scene(ControlMesh mesh, const std::string& scheme);
+  /// By any scheme, for instance one from load_plugin(). What the masks throw comes out of this or of the query that is
+  /// the first to need one.
+  explicit Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;

@@ -14,6 +14,7 @@
 #include "flatten.h"
 #include "patch_tree.h"
 #include "ray_frame.h"
+#include "refining_finish.h"
 
 namespace shaolin {
 
@@ -43,7 +44,7 @@ class ShaoLin {
 
  private:
   using Node = PatchNode<S>;
-  using Regular = typename S::Regular;
+  using Regular = RegularPatch<S::face_kind>;
 
   /// A start patch: the patch of a face, or of an n-gon's corner, and the normal of its plane TP; made when a ray first
   /// reaches its box.
@@ -84,6 +85,13 @@ class ShaoLin {
       return *frame_;
     }
 
+    /// The nearest hit so far.
+    void take(const Node& node, const PatchHit& nearest) {
+      found = &node;
+      hit = nearest;
+      far = std::min(far, nearest.distance);
+    }
+
    private:
     std::optional<RayFrame> frame_;
   };
@@ -93,10 +101,12 @@ class ShaoLin {
   template <Query query>
   void descend(const Node& node, Search& search) const;
   void finish(const Node& node, Search& search) const;
+  void finish_by_refinement(const Node& node, Search& search) const;
   void finish_irregular(const Node& node, const Box& hull, Search& search) const;
   template <Query query>
   Found search(const TraversalRay& ray, RayCounters& counters) const;
   LimitSample sample(const Found& found, const SurfaceParameter& at) const;
+  static LimitSample polynomial_sample(const Found& found);
 
   const SchemeSurface<S>& surface_;
   std::vector<Primitive> primitives_;
@@ -210,16 +220,22 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
 /// The surface at a hit: from the polynomial where it is as good as evaluation from the control face, that is, unless
 /// the piece is so small that differences of its absolute coordinates lose the normal's digits.
 template <Scheme S, template <class> class Finish>
-SHAOLIN_FLATTEN LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
+LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
   const bool regular = found.node->is_regular();
-  if (!regular || found.node->level() > deepest_absolute) {
-    // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
-    LimitSample sample = *surface_.evaluate(at);
-    sample.position = regular ? found.node->regular().template bezier<Regular>().position(found.hit.at)
-                              : found.node->irregular().points.front();
-    return sample;
+  if (regular && found.node->level() <= deepest_absolute) return polynomial_sample(found);
+  // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
+  LimitSample sample = *surface_.evaluate(at);
+  if (regular) {
+    sample.position = found.node->regular().template bezier<Regular>().position(found.hit.at);
+  } else if (!found.node->is_leaf()) {
+    sample.position = found.node->irregular().points.front();
   }
+  return sample;
+}
+
+template <Scheme S, template <class> class Finish>
+SHAOLIN_FLATTEN LimitSample ShaoLin<S, Finish>::polynomial_sample(const Found& found) {
   return detail::sample(found.node->regular().template bezier<Regular>(), found.hit.at, Vec3::Zero(),
                         1 / found.node->scale(), 1);
 }
@@ -258,14 +274,24 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
 
 template <Scheme S, template <class> class Finish>
 void ShaoLin<S, Finish>::finish(const Node& node, Search& search) const {
+  if (!node.is_regular()) return finish_by_refinement(node, search);
   Net projected;
   search.frame().project(node.regular(), projected);
   const bool far_is_hit = search.far < search.ray.far;
   Finish<Regular> solver(search.frame().error(node.box()), search.ray.near, search.far, far_is_hit, search.counters);
-  if (!solver.solve(projected)) return;
-  search.found = &node;
-  search.hit = solver.hit();
-  search.far = std::min(search.far, solver.hit().distance);
+  if (solver.solve(projected)) search.take(node, solver.hit());
+}
+
+/// Masks with negative weights amplify rounding: by as much as their limit functions' absolute values sum to, a level;
+/// four times the polynomials' error covers the 50 levels of a sum of 2.
+template <Scheme S, template <class> class Finish>
+void ShaoLin<S, Finish>::finish_by_refinement(const Node& node, Search& search) const {
+  Patch<S> projected = node.irregular();
+  for (Vec3& point : projected.points) point = search.frame().project(point);
+  const bool far_is_hit = search.far < search.ray.far;
+  RefiningFinish<S> solver(4 * search.frame().error(node.box()), search.ray.near, search.far, far_is_hit,
+                           search.counters);
+  if (solver.solve(projected)) search.take(node, solver.hit());
 }
 
 /// The whole patch is one point to within rounding: the irregular corner's limit.
@@ -275,9 +301,7 @@ void ShaoLin<S, Finish>::finish_irregular(const Node& node, const Box& hull, Sea
   if (hull.upper.z() < search.ray.near - error) return;
   const double distance = std::max(search.frame().project(node.irregular().points.front()).z(), search.ray.near);
   if (distance > search.far - (search.far < search.ray.far ? error : 0)) return;
-  search.found = &node;
-  search.hit = {Domain<S::face_kind>::centre(), distance};
-  search.far = distance;
+  search.take(node, {Domain<S::face_kind>::centre(), distance});
 }
 
 }  // namespace shaolin

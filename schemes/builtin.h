@@ -34,9 +34,7 @@ template <class Use>
 auto with_scheme(const std::string& name, Use use) {
   if (name == Loop::name) return use(Loop());
   if (name == CatmullClark::name) return use(CatmullClark());
-  const std::shared_ptr<const SchemeMasks> masks = builtin_masks(name);
-  return masks->face_kind() == FaceKind::triangle ? use(RuntimeScheme<FaceKind::triangle>(masks))
-                                                  : use(RuntimeScheme<FaceKind::quad>(masks));
+  return with_masks(builtin_masks(name), use);
 }
 
 }  // namespace shaolin

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bezier_quad.h"
 #include "crease_tangent.h"
 #include "scheme.h"
 
@@ -12,12 +11,10 @@ namespace shaolin {
 struct CatmullClark {
   static constexpr const char* name = "catmark";
   static constexpr FaceKind face_kind = FaceKind::quad;
-  static constexpr int radius = 1;
   static constexpr int regular_valence = 4;
   static constexpr Basis basis = Basis::spline;
   static constexpr CreaseMask crease = cubic_crease;
   static constexpr Smoothness smoothness = smooth_surface;
-  using Regular = BezierQuad;
 
   /// ((n - 2) vertex + mean of neighbours + mean of new face points) / n.
   static VertexMask smooth_vertex(int n) {
@@ -53,17 +50,17 @@ struct CatmullClark {
   }
 
   /// Halstead, Kass and DeRose 1993: A cos(2 pi i / n) a spoke, cos(2 pi i / n) + cos(2 pi (i + 1) / n) a diagonal.
-  static TangentMask smooth_tangent(int n, double first) {
+  static RingMask smooth_tangent(int n, double first) {
     const double step = 2 * std::numbers::pi / n;
     return fourier_tangent(n, n, step, [=](int i) { return std::cos(step * (i - first)); });
   }
 
   /// The odd Fourier mode of the doubled sector, sin(i pi / k), with the same A; k = 2 is the regular crease. The masks
   /// that Biermann, Levin and Zorin 2000 print belong to their modified rules, whose eigenvalue is 1/2 for every k.
-  static TangentMask crease_cross_tangent(int k) {
+  static RingMask crease_cross_tangent(int k) {
     if (k == 1) return single_face_crease_tangent();
     const double theta = std::numbers::pi / k;
-    TangentMask mask = fourier_tangent(k, k + 1, theta, [=](int i) { return i % k == 0 ? 0 : std::sin(i * theta); });
+    RingMask mask = fourier_tangent(k, k + 1, theta, [=](int i) { return i % k == 0 ? 0 : std::sin(i * theta); });
     double edges = 0, diagonals = 0;
     for (const double weight : mask.edges) edges += weight;
     for (const double weight : mask.diagonals) diagonals += weight;
@@ -80,10 +77,10 @@ struct CatmullClark {
   }
 
   template <class Mode>
-  static TangentMask fourier_tangent(int faces, int spokes, double step, Mode mode) {
+  static RingMask fourier_tangent(int faces, int spokes, double step, Mode mode) {
     const double c = std::cos(step);
     const double spoke = 1 + c + std::cos(step / 2) * std::sqrt(2 * (9 + c));
-    TangentMask mask;
+    RingMask mask;
     for (int i = 0; i < spokes; ++i) mask.edges.push_back(spoke * mode(i));
     for (int i = 0; i < faces; ++i) mask.diagonals.push_back(mode(i) + mode(i + 1));
     return mask;

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "domain.h"
+#include "flat_net.h"
 #include "hull_expansion.h"
+#include "limit_bound.h"
 #include "limit_rows.h"
 #include "neighbourhood.h"
 #include "regular_layout.h"
@@ -26,8 +28,8 @@ class ConfigurationTable;
 template <Scheme S>
 class Configuration {
  public:
-  using RegularPatch = typename S::Regular;
-  using Layout = RegularLayout<RegularPatch>;
+  using Regular = RegularPatch<S::face_kind>;
+  using Layout = RegularLayout<Regular>;
 
   struct Child {
     const Configuration* configuration;
@@ -37,14 +39,16 @@ class Configuration {
   Configuration(CanonicalForm form, ConfigurationTable<S>& table)
       : neighbourhood_(std::move(form.neighbourhood)),
         point_count_(static_cast<int>(form.vertices.size())),
-        layout_(regular_layout<RegularPatch>(table.rules().scheme.basis, neighbourhood_)),
-        hull_expansion_(shaolin::hull_expansion(table.rules(), neighbourhood_)),
+        layout_(regular_layout<Regular>(basis_of(table.rules().scheme), neighbourhood_)),
         children_(static_cast<std::size_t>(child_count())),
         limit_rows_(static_cast<std::size_t>(corner_count())),
         table_(table) {}
   ~Configuration() {
     for (const auto& child : children_) delete child.load();
     for (const auto& rows : limit_rows_) delete rows.load();
+    delete hull_expansion_.load();
+    delete descents_.load();
+    delete flat_net_.load();
   }
   Configuration(const Configuration&) = delete;
   Configuration& operator=(const Configuration&) = delete;
@@ -57,9 +61,35 @@ class Configuration {
 
   /// What a regular patch is made of; empty for an irregular one.
   const std::optional<Layout>& layout() const { return layout_; }
+  bool is_regular() const { return layout_.has_value(); }
 
-  /// The share of the control points' extent by which the limit patch may leave their hull, see hull_expansion.h.
-  double hull_expansion() const { return hull_expansion_; }
+  /// The share of the control points' extent by which the limit patch may leave their hull: none where all masks are
+  /// convex combinations, else see hull_expansion.h (Chaikin's rule) and limit_bound.h (negative masks). Found when
+  /// first asked for. Thread-safe.
+  double hull_expansion() const {
+    return once(hull_expansion_, [&] {
+      if (is_regular()) return 0.0;
+      return table_.is_convex() ? shaolin::hull_expansion(table_.rules(), neighbourhood_) : limit_hull_expansion(*this);
+    });
+  }
+
+  /// What limit_hull_expansion() reads; none from a polynomial patch, which lies in its hull. Thread-safe.
+  const std::vector<std::pair<const Configuration*, Descent>>& descents() const {
+    return once(descents_, [&] { return is_regular() ? Descents() : descents_from(*this); });
+  }
+
+  /// See flat_net.h; empty for polynomial patches and where the lattice is irregular. Thread-safe.
+  const std::optional<FlatNet>& flat_net() const {
+    return once(flat_net_, [&]() -> std::optional<FlatNet> {
+      if (is_regular() || corner_count() != Domain<S::face_kind>::corner_count) return {};
+      std::vector<Eigen::MatrixXd> splits;
+      for (int k = 0; k < child_count(); ++k) {
+        if (child(k).configuration != this) return {};
+        splits.push_back(matrix_of(child(k).program, point_count_));
+      }
+      return shaolin::flat_net<S::face_kind>(splits);
+    });
+  }
 
   /// The split: child k's configuration and the program that makes its points. Thread-safe.
   const Child& child(int k) const {
@@ -89,7 +119,10 @@ class Configuration {
   Neighbourhood neighbourhood_;
   int point_count_;
   std::optional<Layout> layout_;
-  double hull_expansion_;
+  using Descents = std::vector<std::pair<const Configuration*, Descent>>;
+  mutable std::atomic<double*> hull_expansion_{nullptr};
+  mutable std::atomic<Descents*> descents_{nullptr};
+  mutable std::atomic<std::optional<FlatNet>*> flat_net_{nullptr};
   mutable std::vector<std::atomic<Child*>> children_;
   mutable std::vector<std::atomic<std::optional<LimitRows>*>> limit_rows_;
   ConfigurationTable<S>& table_;
@@ -99,9 +132,12 @@ class Configuration {
 template <Scheme S>
 class ConfigurationTable {
  public:
-  explicit ConfigurationTable(Rules<S> rules = {}) : rules_(std::move(rules)) {}
+  /// `is_convex`: all masks that the mesh needs are convex combinations (but for Chaikin's rule).
+  explicit ConfigurationTable(Rules<S> rules = {}, bool is_convex = true)
+      : rules_(std::move(rules)), is_convex_(is_convex) {}
 
   const Rules<S>& rules() const { return rules_; }
+  bool is_convex() const { return is_convex_; }
 
   /// The configuration of a neighbourhood, and the neighbourhood's vertices in the order of the patch's points.
   struct Match {
@@ -122,7 +158,7 @@ class ConfigurationTable {
 
   typename Configuration<S>::Child split(const Configuration<S>& parent, int k) {
     Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
-    Match match = this->match(refinement.child(k, S::radius));
+    Match match = this->match(refinement.child(k, rules_.radius()));
     std::vector<RefinedVertex> wanted;
     wanted.reserve(match.vertices.size());
     for (const int vertex : match.vertices) wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
@@ -145,6 +181,7 @@ class ConfigurationTable {
   };
 
   Rules<S> rules_;
+  bool is_convex_;
   mutable std::mutex mutex_;
   std::unordered_map<std::vector<int>, std::unique_ptr<Configuration<S>>, KeyHash> configurations_;
 };

@@ -16,7 +16,7 @@ struct LimitAtCorner {
 namespace detail {
 
 /// Sums a tangent mask over a ring whose faces are of the scheme's kind.
-inline Vec3 tangent(const TangentMask& mask, const Ring& ring, const Vec3* points) {
+inline Vec3 tangent(const RingMask& mask, const Ring& ring, const Vec3* points) {
   Vec3 sum = mask.vertex * points[ring.vertex];
   for (std::size_t i = 0; i < mask.edges.size(); ++i) sum += mask.edges[i] * points[ring.spokes[i].end];
   for (std::size_t i = 0; i < mask.diagonals.size(); ++i) sum += mask.diagonals[i] * points[ring.faces[i].vertex(2)];
@@ -45,7 +45,8 @@ LimitAtCorner crease_limit(const S& scheme, const Ring& ring, const Vec3* points
   const auto sharp = [](const Ring::Spoke& spoke) { return is_sharp(spoke.sharpness); };
   const Vec3& a = points[std::find_if(ring.spokes.begin(), ring.spokes.end(), sharp)->end];
   const Vec3& b = points[std::find_if(ring.spokes.rbegin(), ring.spokes.rend(), sharp)->end];
-  const Vec3 position = scheme.crease.limit_vertex * points[ring.vertex] + scheme.crease.limit_edge * (a + b);
+  const CreaseMask crease = crease_of(scheme);
+  const Vec3 position = crease.limit_vertex * points[ring.vertex] + crease.limit_edge * (a + b);
   if (ring.closed) return {position, {}};  // a face that repeats its vertex has both sides of the crease in its ring
   const Vec3 across = tangent(scheme.crease_cross_tangent(static_cast<int>(ring.faces.size())), ring, points);
   return {position, (a - b).cross(across).normalized()};
@@ -98,12 +99,15 @@ std::optional<LimitAtCorner> corner_limit(const Patch<S>& patch, int k) {
   const Vec3* points = patch.points.data();
   switch (vertex_rule(ring.sharpness, sharpness)) {
     case VertexRule::smooth:
-      if (ring.cone) return detail::derived_limit(patch, k);
-      return detail::smooth_limit(scheme, ring, points);
+      if constexpr (ClosedLimits<S>)
+        if (has_closed_limits(scheme) && !ring.cone) return detail::smooth_limit(scheme, ring, points);
+      return detail::derived_limit(patch, k);
     case VertexRule::dart:
       return detail::derived_limit(patch, k);
     case VertexRule::crease:
-      return detail::crease_limit(scheme, ring, points);
+      if constexpr (ClosedLimits<S>)
+        if (has_closed_limits(scheme)) return detail::crease_limit(scheme, ring, points);
+      return detail::derived_limit(patch, k);
     default:
       break;
   }

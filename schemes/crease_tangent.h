@@ -11,7 +11,7 @@ namespace shaolin {
 /// rows give, for end weight a and vertex weight v,
 ///     (1/2 - lambda) a + 1/8 v = -into_end,     a + (3/4 - lambda) v = -into_vertex,
 /// whose determinant is (lambda - 1)(lambda - 1/4): regular for every subdominant lambda.
-inline void complete_crease_tangent(TangentMask& mask, double lambda, double into_end, double into_vertex) {
+inline void complete_crease_tangent(RingMask& mask, double lambda, double into_end, double into_vertex) {
   const double determinant = (lambda - 1) * (lambda - 0.25);
   assert(determinant != 0);
   const double end = (-into_end * (0.75 - lambda) + into_vertex * 0.125) / determinant;
@@ -22,6 +22,6 @@ inline void complete_crease_tangent(TangentMask& mask, double lambda, double int
 
 /// The sector of one face: along the crease 1/2, across only 1/4, shared with the curve's second difference in a Jordan
 /// block that the latter dominates. So the surface leaves the crease towards the middle of its two edges.
-inline TangentMask single_face_crease_tangent() { return {-2, {1, 1}, {}}; }
+inline RingMask single_face_crease_tangent() { return {-2, {1, 1}, {}}; }
 
 }  // namespace shaolin

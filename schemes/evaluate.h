@@ -11,6 +11,10 @@ namespace shaolin {
 
 namespace detail {
 
+/// A parameter that is no corner has a bit set above 2^-1074, so fewer splits bring it to a corner or past one, and ten
+/// more wear semi-sharp values down.
+constexpr int most_levels = 1100;
+
 /// The corner of the domain that a parameter is nearest to.
 template <Scheme S>
 int nearest_corner(const Parameter& p) {
@@ -51,8 +55,9 @@ LimitSample sample(const Regular& piece, const Parameter& at, const Vec3& anchor
 
 }  // namespace detail
 
+/// See below. `one_sided`: where masks give no normal, look for the one that the patch's own side approaches.
 template <Scheme S>
-LimitSample evaluate(Patch<S> patch, Parameter at);
+LimitSample evaluate(Patch<S> patch, Parameter at, bool one_sided = true);
 
 /// The normal that a patch's own side approaches at its corner k. 100 splits towards the corner leave 0.66^100 of any
 /// mode that lags behind by the slowest eigenvalue. Modes shrink at different rates (around an infinitely sharp vertex
@@ -82,18 +87,19 @@ Vec3 one_sided_normal(Patch<S> patch, int k) {
     to_whitened = whiten * to_whitened;
     to_whitened /= to_whitened.cwiseAbs().maxCoeff();
   }
-  const Vec3 normal = evaluate(std::move(patch), Domain<S::face_kind>::centre()).normal;
+  const Vec3 normal = evaluate(std::move(patch), Domain<S::face_kind>::centre(), false).normal;
   return (to_whitened.transpose() * normal).normalized();
 }
 
 /// The limit at a corner of a patch: no derivatives. Where masks give no normal, the one that its own face approaches
-/// stands in.
+/// stands in, or zero if that is not asked for.
 template <Scheme S>
-std::optional<LimitSample> evaluate_corner(const Patch<S>& patch, int k) {
+std::optional<LimitSample> evaluate_corner(const Patch<S>& patch, int k, bool one_sided = true) {
   const std::optional<LimitAtCorner> limit = corner_limit(patch, k);
   if (!limit) return {};
   const bool has_normal = limit->normal && limit->normal->allFinite() && !limit->normal->isZero(0);
-  return LimitSample{limit->position, has_normal ? *limit->normal : one_sided_normal(patch, k), {}};
+  if (has_normal) return LimitSample{limit->position, *limit->normal, {}};
+  return LimitSample{limit->position, one_sided ? one_sided_normal(patch, k) : Vec3(Vec3::Zero()), {}};
 }
 
 /// Position, normal and derivatives of the limit at a parameter of a patch whose face is of the scheme's own kind.
@@ -104,9 +110,10 @@ std::optional<LimitSample> evaluate_corner(const Patch<S>& patch, int k) {
 /// first derivatives keep their precision however deep the descent; second ones carry some 50 u (size of the patch) /
 /// (distance from the corner). So do normals, unless the surface flattens to a line there (around a rounded corner of
 /// one face, or a spike): at a distance d in parameters such a normal is good to u / d. It ends: a parameter other than
-/// a corner lies 2^-1074 from it at least.
+/// a corner lies 2^-1074 from it at least. Without polynomials a parameter is found as a corner: each split takes a bit
+/// off it, so most end after 53; there are no derivatives then.
 template <Scheme S>
-LimitSample evaluate(Patch<S> patch, Parameter at) {
+LimitSample evaluate(Patch<S> patch, Parameter at, bool one_sided) {
   using D = Domain<S::face_kind>;
   constexpr int levels_between_anchors = 8;
   Vec3 anchor = Vec3::Zero();
@@ -114,8 +121,11 @@ LimitSample evaluate(Patch<S> patch, Parameter at) {
   at = D::nearest(at);
   for (int level = 0, anchored = -levels_between_anchors; !patch.is_regular(); ++level) {
     const int corner = detail::nearest_corner<S>(at);
+    // Only a scheme that does not converge comes here.
+    if (level > detail::most_levels)
+      return {anchor + patch.points[static_cast<std::size_t>(corner)] / magnification, Vec3::Zero(), {}};
     if (at == detail::corner_parameter<S>(corner) && !patch.child(corner).is_regular()) {
-      if (std::optional<LimitSample> limit = evaluate_corner(patch, corner)) {
+      if (std::optional<LimitSample> limit = evaluate_corner(patch, corner, one_sided)) {
         limit->position = anchor + limit->position / magnification;
         return *limit;
       }
@@ -131,7 +141,7 @@ LimitSample evaluate(Patch<S> patch, Parameter at) {
     }
     const ChildParameter inside = D::to_child(at);
     patch = patch.child(inside.child);
-    at = inside.at;
+    at = D::nearest(inside.at);  // a rounding may leave the middle child of a triangle
     scale /= D::scale(inside.child);
   }
   return detail::sample(patch.regular(), at, anchor, scale, magnification);

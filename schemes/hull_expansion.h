@@ -8,6 +8,19 @@
 
 namespace shaolin {
 
+/// True if the masks of vertices with 3 up to so many neighbours, and of edges, have no negative weight. Masks of radius
+/// 2 are taken to have some: which are asked for depends on pairs of vertices.
+template <Scheme S>
+bool has_convex_masks(const Rules<S>& rules, int most_neighbours) {
+  if (rules.radius() == 2) return false;
+  for (const int triangles : {0, 1, 2})
+    if (const EdgeMask edge = rules.edge(triangles); edge.end < 0 || edge.side < 0) return false;
+  for (int n = 3; n <= most_neighbours; ++n)
+    for (const VertexMask& mask : {rules.scheme.smooth_vertex(n), dart_vertex_of(rules.scheme, n)})
+      if (mask.vertex < 0 || mask.edge < 0 || mask.face < 0) return false;
+  return true;
+}
+
 /// The share of the hull's extent along an axis by which the patch may pass the hull on either side; `sharpest` is the
 /// largest semi-sharp value among the edges around.
 ///

@@ -80,15 +80,22 @@ std::optional<LimitRows> limit_rows(const Eigen::MatrixXd& matrix, const Ring& r
   const double next = values.size() > 3 ? std::abs(values[3]) : 0;
   if (!is_positive(values[1]) || !is_positive(values[2]) || values[2].real() <= next + same) return rows;
 
-  Eigen::Matrix<double, Eigen::Dynamic, 2> tangents(matrix.rows(), 2);
   const double first = values[1].real(), second = values[2].real();
-  if (first - second <= same) {
-    tangents = left_eigenvectors(matrix, (first + second) / 2, 2);
-  } else {
-    tangents.col(0) = left_eigenvectors(matrix, first, 1);
-    tangents.col(1) = left_eigenvectors(matrix, second, 1);
-  }
-  const double orientation = (tangents.transpose() * flat_layout(ring, matrix.rows())).determinant();
+  const auto pair = [&](const Eigen::MatrixXd& m) {
+    Eigen::Matrix<double, Eigen::Dynamic, 2> vectors(m.rows(), 2);
+    if (first - second <= same) {
+      vectors = left_eigenvectors(m, (first + second) / 2, 2);
+    } else {
+      vectors.col(0) = left_eigenvectors(m, first, 1);
+      vectors.col(1) = left_eigenvectors(m, second, 1);
+    }
+    return vectors;
+  };
+  Eigen::Matrix<double, Eigen::Dynamic, 2> tangents = pair(matrix);
+  // The right eigenvectors are the net that the tangents span; it is laid out as the ring is, or mirrored.
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> net = pair(matrix.transpose());
+  const double orientation =
+      (tangents.transpose() * net).determinant() * (flat_layout(ring, matrix.rows()).transpose() * net).determinant();
   if (orientation < 0) tangents.col(1) *= -1;
   if (orientation != 0) rows.tangents = tangents;
   return rows;

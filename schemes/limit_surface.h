@@ -9,6 +9,8 @@
 
 namespace shaolin {
 
+class SchemeMasks;
+
 class LimitSurface {
  public:
   virtual ~LimitSurface() = default;
@@ -36,5 +38,9 @@ std::string default_scheme(const ControlMesh& mesh);
 /// Builds the surface by a built-in scheme (see builtin.h). Throws InputError for another name, or if a triangle scheme
 /// is given a face that is not a triangle. O(mesh size).
 std::unique_ptr<LimitSurface> make_limit_surface(ControlMesh mesh, const std::string& scheme);
+
+/// By any scheme, for instance one from load_plugin(). The masks may throw, here and whenever a place of the surface is
+/// asked for whose kind has not been seen before.
+std::unique_ptr<LimitSurface> make_limit_surface(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks);
 
 }  // namespace shaolin

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bezier_triangle.h"
 #include "crease_tangent.h"
 #include "scheme.h"
 
@@ -15,12 +14,10 @@ namespace shaolin {
 template <class Weights>
 struct LoopMasks {
   static constexpr FaceKind face_kind = FaceKind::triangle;
-  static constexpr int radius = 1;
   static constexpr int regular_valence = 6;
   static constexpr Basis basis = Basis::spline;
   static constexpr CreaseMask crease = cubic_crease;
   static constexpr Smoothness smoothness = smooth_surface;
-  using Regular = BezierTriangle;
 
   static VertexMask smooth_vertex(int n) {
     if (n == regular_valence) return {5.0 / 8, 1.0 / 16, 0};
@@ -45,18 +42,18 @@ struct LoopMasks {
   }
 
   /// Loop 1987: cos(2 pi i / n), here from a place `first`, measured in spokes.
-  static TangentMask smooth_tangent(int n, double first) {
-    TangentMask mask;
+  static RingMask smooth_tangent(int n, double first) {
+    RingMask mask;
     for (int i = 0; i < n; ++i) mask.edges.push_back(std::cos(2 * std::numbers::pi * (i - first) / n));
     return mask;
   }
 
   /// Interior spokes i = 1..k-1 weigh sin(i pi / k), the odd Fourier mode of the doubled sector, of eigenvalue
   /// 3/8 + cos(pi / k) / 4; k = 3 is the regular crease, eigenvalue 1/2.
-  static TangentMask crease_cross_tangent(int k) {
+  static RingMask crease_cross_tangent(int k) {
     if (k == 1) return single_face_crease_tangent();
     const double theta = std::numbers::pi / k;
-    TangentMask mask;
+    RingMask mask;
     mask.edges.assign(static_cast<std::size_t>(k) + 1, 0);
     double sum = 0;
     for (int i = 1; i < k; ++i) sum += mask.edges[static_cast<std::size_t>(i)] = std::sin(i * theta);

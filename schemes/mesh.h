@@ -65,6 +65,9 @@ class Mesh {
   }
   int face_size(int face) const { return first_corner(face + 1) - first_corner(face); }
 
+  /// The same with its sides, seen from its first corner. A view into the mesh.
+  FaceSides face_sides(int face) const { return face_from({face, 0}); }
+
   /// False for a face without three distinct vertices in a row: the half-edges leave it out, and so does refinement.
   bool is_held(int face) const { return kernel_face_[static_cast<std::size_t>(face)] >= 0; }
 

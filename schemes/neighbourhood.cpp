@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 namespace shaolin {
@@ -56,32 +58,132 @@ int place_of_face(const Neighbourhood& neighbourhood, std::size_t k) {
   return 0;
 }
 
+namespace {
+
+/// The sector of a ring that holds the face in that place, if infinitely sharp edges cut it out for good: not while
+/// semi-sharp edges still count for the vertex's rule. A sector of three or more sharp edges ends at a corner.
+std::optional<Ring> cut_sector(const Ring& ring, int place) {
+  const std::vector<float> sharpness = ring.spoke_sharpness();
+  if (std::any_of(sharpness.begin(), sharpness.end(), is_semi_sharp)) return {};
+  const auto infinite = std::count_if(sharpness.begin(), sharpness.end(), is_infinite);
+  if (infinite < 2) return {};
+  Ring cut = sector_of_face(ring, place);
+  if (infinite > 2) cut.sharpness = infinite_sharpness;
+  return cut;
+}
+
+bool has_face(const Ring& ring, int id) {
+  return std::any_of(ring.faces.begin(), ring.faces.end(), [&](const FaceSides& face) { return face.id() == id; });
+}
+
+bool has_vertex(const FaceSides& face, int vertex) {
+  for (int i = 0; i < face.size(); ++i)
+    if (face.vertex(i) == vertex) return true;
+  return false;
+}
+
+/// Calls visit(face) for the faces of the corners' rings that have the vertex.
+template <class Visit>
+void each_near_face(const std::vector<const Ring*>& corners, int vertex, Visit visit) {
+  for (const Ring* ring : corners)
+    for (const FaceSides& face : ring->faces)
+      if (has_vertex(face, vertex)) visit(face);
+}
+
+/// Radius 2: a sector is cut out only if all faces around the corners that have its vertex lie in it, for edge points
+/// beyond read the whole ring. Then rings that no face around the corners leads to are left out.
+void drop_beyond_second_rings(Neighbourhood& neighbourhood, std::vector<std::optional<Ring>> cuts) {
+  std::vector<Ring>& rings = neighbourhood.rings;
+  const auto size = static_cast<std::size_t>(neighbourhood.face.size());
+  const auto corners = [&] {
+    std::vector<const Ring*> result;
+    for (std::size_t k = 0; k < size; ++k) result.push_back(cuts[k] ? &*cuts[k] : &rings[k]);
+    return result;
+  };
+  for (bool settled = false; !settled;) {
+    settled = true;
+    for (std::size_t k = 0; k < size; ++k) {
+      if (!cuts[k]) continue;
+      bool whole = false;
+      each_near_face(corners(), rings[k].vertex,
+                     [&](const FaceSides& face) { whole |= !has_face(*cuts[k], face.id()); });
+      if (!whole) continue;
+      cuts[k].reset();
+      settled = false;
+    }
+  }
+  for (std::size_t k = 0; k < size; ++k)
+    if (cuts[k]) rings[k] = std::move(*cuts[k]);
+
+  std::vector<const Ring*> kept;
+  for (std::size_t k = 0; k < size; ++k) kept.push_back(&rings[k]);
+  std::vector<Ring> near;
+  for (std::size_t i = size; i < rings.size(); ++i) {
+    const FaceSides* first = nullptr;
+    each_near_face(kept, rings[i].vertex, [&](const FaceSides& face) { first = first ? first : &face; });
+    if (!first) continue;
+    int place = 0;
+    while (rings[i].faces[static_cast<std::size_t>(place)].id() != first->id()) ++place;
+    std::optional<Ring> cut = cut_sector(rings[i], place);
+    bool whole = !cut;
+    each_near_face(kept, rings[i].vertex, [&](const FaceSides& face) { whole |= cut && !has_face(*cut, face.id()); });
+    near.push_back(whole ? std::move(rings[i]) : std::move(*cut));
+  }
+  rings.resize(size);
+  std::move(near.begin(), near.end(), std::back_inserter(rings));
+}
+
+}  // namespace
+
 void drop_beyond_creases(Neighbourhood& neighbourhood) {
   const FaceSides& face = neighbourhood.face;
   std::unordered_map<int, int> repeats;
   for (int k = 0; k < face.size(); ++k) ++repeats[face.vertex(k)];
+  std::vector<std::optional<Ring>> cuts(static_cast<std::size_t>(face.size()));
   for (int k = 0; k < face.size(); ++k) {
     // Corners of a vertex that the face repeats keep their rings, so that children beside each other share theirs.
     if (repeats[face.vertex(k)] > 1) continue;
-    Ring& ring = neighbourhood.rings[static_cast<std::size_t>(k)];
-    const std::vector<float> sharpness = ring.spoke_sharpness();
-    if (std::any_of(sharpness.begin(), sharpness.end(), is_semi_sharp)) continue;
-    const auto infinite = std::count_if(sharpness.begin(), sharpness.end(), is_infinite);
-    if (infinite < 2) continue;
-    const int place = place_of_face(neighbourhood, static_cast<std::size_t>(k));
-    ring = sector_of_face(ring, place);
-    if (infinite > 2) ring.sharpness = infinite_sharpness;
+    const auto at = static_cast<std::size_t>(k);
+    cuts[at] = cut_sector(neighbourhood.rings[at], place_of_face(neighbourhood, at));
   }
+  if (neighbourhood.rings.size() > cuts.size()) return drop_beyond_second_rings(neighbourhood, std::move(cuts));
+  for (std::size_t k = 0; k < cuts.size(); ++k)
+    if (cuts[k]) neighbourhood.rings[k] = std::move(*cuts[k]);
 }
 
+namespace {
+
+/// Turns a closed ring so that the face in that place comes first.
+void turn(Ring& ring, int place) {
+  if (!ring.closed) return;
+  std::rotate(ring.spokes.begin(), ring.spokes.begin() + place, ring.spokes.end());
+  std::rotate(ring.faces.begin(), ring.faces.begin() + place, ring.faces.end());
+}
+
+}  // namespace
+
 void turn_to_face(Neighbourhood& neighbourhood) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(neighbourhood.face.size()); ++k) {
-    Ring& ring = neighbourhood.rings[k];
-    if (!ring.closed) continue;
-    const int place = place_of_face(neighbourhood, k);
-    std::rotate(ring.spokes.begin(), ring.spokes.begin() + place, ring.spokes.end());
-    std::rotate(ring.faces.begin(), ring.faces.begin() + place, ring.faces.end());
-  }
+  std::vector<Ring>& rings = neighbourhood.rings;
+  const auto corners = static_cast<std::size_t>(neighbourhood.face.size());
+  for (std::size_t k = 0; k < corners; ++k)
+    if (rings[k].closed) turn(rings[k], place_of_face(neighbourhood, k));
+
+  std::unordered_map<int, std::size_t> outer;
+  for (std::size_t i = corners; i < rings.size(); ++i) outer.emplace(rings[i].vertex, i);
+  std::vector<Ring> met;
+  for (std::size_t k = 0; k < corners && !outer.empty(); ++k)
+    for (const FaceSides& face : rings[k].faces)
+      for (int i = 0; i < face.size(); ++i) {
+        const auto at = outer.find(face.vertex(i));
+        if (at == outer.end()) continue;
+        Ring& ring = met.emplace_back(std::move(rings[at->second]));
+        outer.erase(at);
+        const auto same = std::find_if(ring.faces.begin(), ring.faces.end(),
+                                       [&](const FaceSides& other) { return other.id() == face.id(); });
+        turn(ring, static_cast<int>(same - ring.faces.begin()));
+      }
+  rings.resize(corners);
+  std::move(met.begin(), met.end(), std::back_inserter(rings));
 }
 
 CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
@@ -266,9 +368,10 @@ Ring Refinement::ring_of_vertex(int v) {
   return result;
 }
 
-/// The edge as a spoke that has the face itself beside it, if there is one.
+/// The edge as a spoke that has the face itself beside it, if there is one; else at the end of a ring that was cut
+/// there, if there is one.
 Refinement::Place Refinement::place_of_edge(int edge) const {
-  Place place{nullptr, 0, nullptr, nullptr};
+  Place place{nullptr, 0, nullptr, nullptr}, cut = place;
   for (const Ring& ring : parent_.rings) {
     for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
       if (ring.spokes[i].edge != edge) continue;
@@ -278,9 +381,10 @@ Refinement::Place Refinement::place_of_edge(int edge) const {
                              : nullptr};
       const auto is_face = [&](const FaceSides* side) { return side && side->id() == parent_.face.id(); };
       if (is_face(place.left) || is_face(place.right)) return place;
+      if (!place.left || !place.right) cut = place;
     }
   }
-  return place;
+  return cut.ring ? cut : place;
 }
 
 /// Around an edge's new vertex: the two halves of the edge, and what each side's face contributes between them. A side

@@ -10,7 +10,7 @@ namespace shaolin {
 /// Configuration::hull_expansion() of it; splitting gives the children's patches, without any mesh.
 template <Scheme S>
 struct Patch {
-  using Regular = typename S::Regular;
+  using Regular = RegularPatch<S::face_kind>;
 
   const Configuration<S>* configuration = nullptr;
   std::vector<Vec3> points;
@@ -23,7 +23,7 @@ struct Patch {
     return result;
   }
 
-  bool is_regular() const { return configuration->layout().has_value(); }
+  bool is_regular() const { return configuration->is_regular(); }
 
   /// The polynomial patch of a regular configuration.
   Regular regular() const { return configuration->layout()->patch(points.data()); }

@@ -2,6 +2,7 @@
 /// Finding the spline control points of a regular patch in its neighbourhood.
 #include <array>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "bezier_quad.h"
@@ -9,6 +10,10 @@
 #include "neighbourhood.h"
 
 namespace shaolin {
+
+/// The polynomial patches of each split.
+template <FaceKind kind>
+using RegularPatch = std::conditional_t<kind == FaceKind::triangle, BezierTriangle, BezierQuad>;
 
 /// A spline control point as a small combination of the neighbourhood's points: one of them, or a phantom beyond a
 /// crease, so placed that the spline's smooth rules give the crease rules:
@@ -41,10 +46,10 @@ struct RegularLayout {
   }
 };
 
-/// The layout of a regular patch; empty if the neighbourhood is irregular. Linear: any face of the scheme's own kind.
-/// Spline: every corner must be smooth and of regular valence, or lie on an infinitely sharp crease (a boundary) with
-/// half as many faces on this side, or be an infinitely sharp corner of a single face. Takes the neighbourhood as
-/// canonical_form() has it: cut at creases, rings turned to the face.
+/// The layout of a regular patch; empty if the neighbourhood is irregular or no basis is known. Linear: any face of the
+/// scheme's own kind. Spline: every corner must be smooth and of regular valence, or lie on an infinitely sharp crease
+/// (a boundary) with half as many faces on this side, or be an infinitely sharp corner of a single face. Takes the
+/// neighbourhood as canonical_form() has it: cut at creases, rings turned to the face.
 template <class Bezier>
 std::optional<RegularLayout<Bezier>> regular_layout(Basis basis, const Neighbourhood& neighbourhood);
 

@@ -29,9 +29,9 @@ struct LimitMask {
   double vertex, edge, diagonal;
 };
 
-/// Weights of a limit tangent by place around a vertex: spoke i, and the diagonal of the face between spokes i and
-/// i + 1 (empty for triangles). All weights sum to zero. A left eigenvector of the subdominant eigenvalue.
-struct TangentMask {
+/// Weights over a ring, by place: the vertex, spoke i, and the diagonal vertex of the face between spokes i and i + 1
+/// (empty for triangles). Spokes count counter-clockwise from a place that the mask's maker names.
+struct RingMask {
   double vertex = 0;
   std::vector<double> edges, diagonals;
 };
@@ -53,6 +53,7 @@ inline constexpr CreaseMask linear_crease{1, 0, 1, 0};
 
 /// The polynomials that a regular patch consists of.
 enum class Basis {
+  none,    ///< none are known: the surface is found by refinement alone
   spline,  ///< bicubic B-spline on quads, quartic box spline on triangles
   linear   ///< bilinear on quads, linear on triangles; every quad and every triangle is regular
 };
@@ -68,35 +69,111 @@ struct Smoothness {
 inline constexpr Smoothness smooth_surface{1, 1, 1, 0};
 inline constexpr Smoothness continuous_surface{0, 0, 0, 0};
 
-/// A scheme is a small struct, in most cases of constants and static functions; see loop.h and catmull_clark.h.
-///
-/// - `face_kind`: the split. `radius`: rings of faces around a face that its patch depends on.
-/// - `smooth_vertex(n)`, `smooth_edge()`, `smooth_limit(n)`: masks at a smooth interior vertex of valence n, an edge.
-/// - `crease`: the weights along a crease. `basis`, `Regular`: the regular patches, and their type in Bezier form.
-/// - `smoothness`: what it declares.
-/// - `smooth_tangent(n, first)`: the tangent whose weights follow cos(2 pi (i - first) / n). Two of them a quarter
-///   turn apart (one by cos, one by sin) span the tangent plane. Empty if the surface has none.
-/// - `crease_cross_tangent(k)`: the tangent that leaves a crease into a sector of k faces with spokes 0..k.
-/// - `dart_vertex(n)`, if the scheme has one: the vertex mask where one sharp edge ends, else `smooth_vertex(n)`.
-/// - `cone_vertex(n)`, if the scheme has one: the vertex mask at a vertex that keeps a tangent cone. It gives the
-/// ring's
-///   mean mode the eigenvalue of the first Fourier mode, so that height and extent shrink alike.
-/// - `triangle_edge(k)`, if the scheme has one: the edge mask beside k triangles (1 or 2) in the quad split's first
-///   step, for meshes that ask for smooth triangles.
+/// New edge points from the ends and what lies beside them: radius 1.
 template <class S>
-concept Scheme = requires(const S scheme, int n) {
-  { S::face_kind } -> std::convertible_to<FaceKind>;
-  { S::radius } -> std::convertible_to<int>;
-  { scheme.basis } -> std::convertible_to<Basis>;
-  { scheme.crease } -> std::convertible_to<CreaseMask>;
-  { scheme.smoothness } -> std::convertible_to<Smoothness>;
-  { scheme.smooth_vertex(n) } -> std::same_as<VertexMask>;
+concept EdgeMasks = requires(const S scheme) {
   { scheme.smooth_edge() } -> std::same_as<EdgeMask>;
-  { scheme.smooth_limit(n) } -> std::same_as<LimitMask>;
-  { scheme.smooth_tangent(n, 0.0) } -> std::same_as<TangentMask>;
-  { scheme.crease_cross_tangent(n) } -> std::same_as<TangentMask>;
-  typename S::Regular;
 };
+
+/// New edge points from the rings of both ends: radius 2.
+template <class S>
+concept RingMasks = requires(const S scheme, int n) {
+  { scheme.edge_end(n, n) } -> std::same_as<RingMask>;
+};
+
+/// A scheme is a small struct, in most cases of constants and static functions: its refinement masks. See loop.h for
+/// one of radius 1 and docs/examples/ for those of radius 2.
+///
+/// - `face_kind`: the split.
+/// - `smooth_vertex(n)`: the mask at a smooth interior vertex of valence n.
+/// - `smooth_edge()`, or else `edge_end(n, other)`: the smooth edge point. `edge_end` is what the end of valence n
+///   gives if the other end has valence `other`, counted from the edge itself; the point is the sum over both ends.
+///   Both masks are asked for n, other >= 3 (an edge beside a vertex of valence 2 is cut in its middle). Where a ring
+///   ends at a crease or a boundary it is continued by mirror images (see closed_ring.h): a crease of k faces counts as
+///   valence 2 k.
+///
+/// All else is optional:
+///
+/// - `face_corner(n)` (quads, with `edge_end`): what the corner of valence n gives to the new point of a quad, counted
+///   from the quad's side that leaves the corner; the quad's own diagonal is diagonal 0. Default: the mean of corners.
+/// - `crease`: the weights along a crease; default cubic_crease. `smoothness`: what it declares; default smooth.
+/// - `dart_vertex(n)`: the vertex mask where one sharp edge ends, `cone_vertex(n)`: at a vertex that keeps a tangent
+///   cone; default smooth_vertex(n). (A cone's mask gives the ring's mean mode the eigenvalue of the first Fourier
+///   mode, so that height and extent shrink alike.)
+/// - `triangle_edge(k)`: the edge mask beside k triangles (1 or 2) in the quad split's first step, for meshes that ask
+///   for smooth triangles.
+/// - `basis`: what regular patches are made of. With Basis::none (the default) points are found by local refinement.
+/// - closed forms of limit masks, together: `smooth_limit(n)`; `smooth_tangent(n, first)`, the tangent whose weights
+///   follow cos(2 pi (i - first) / n), two of which a quarter turn apart span the tangent plane (empty if the surface
+///   has none); `crease_cross_tangent(k)`, the tangent that leaves a crease into a sector of k faces with spokes 0..k.
+///   Without them, limit masks are derived from the subdivision matrix (see limit_rows.h).
+template <class S>
+concept Scheme = (EdgeMasks<S> || RingMasks<S>)&&requires(const S scheme, int n) {
+  { S::face_kind } -> std::convertible_to<FaceKind>;
+  { scheme.smooth_vertex(n) } -> std::same_as<VertexMask>;
+};
+
+template <class S>
+concept ClosedLimits = requires(const S scheme, int n) {
+  { scheme.smooth_limit(n) } -> std::same_as<LimitMask>;
+  { scheme.smooth_tangent(n, 0.0) } -> std::same_as<RingMask>;
+  { scheme.crease_cross_tangent(n) } -> std::same_as<RingMask>;
+};
+
+/// Rings of faces around a face that its patch depends on. (A scheme that has both kinds of edge masks says which.)
+template <Scheme S>
+int radius_of(const S& scheme) {
+  if constexpr (requires { scheme.radius; }) return scheme.radius;
+  return RingMasks<S> ? 2 : 1;
+}
+
+template <Scheme S>
+Basis basis_of(const S& scheme) {
+  if constexpr (requires { scheme.basis; }) return scheme.basis;
+  return Basis::none;
+}
+
+template <Scheme S>
+CreaseMask crease_of(const S& scheme) {
+  if constexpr (requires { scheme.crease; }) return scheme.crease;
+  return cubic_crease;
+}
+
+template <Scheme S>
+Smoothness smoothness_of(const S& scheme) {
+  if constexpr (requires { scheme.smoothness; }) return scheme.smoothness;
+  return smooth_surface;
+}
+
+template <Scheme S>
+bool has_closed_limits(const S& scheme) {
+  if constexpr (requires { scheme.closed_limits; }) return scheme.closed_limits;
+  return ClosedLimits<S>;
+}
+
+template <Scheme S>
+VertexMask dart_vertex_of(const S& scheme, int n) {
+  if constexpr (requires { scheme.dart_vertex(n); }) return scheme.dart_vertex(n);
+  return scheme.smooth_vertex(n);
+}
+
+template <Scheme S>
+VertexMask cone_vertex_of(const S& scheme, int n) {
+  if constexpr (requires { scheme.cone_vertex(n); }) return scheme.cone_vertex(n);
+  return scheme.smooth_vertex(n);
+}
+
+/// A quarter of the corner itself: the point of the quad is the mean of its corners.
+inline RingMask quarter_of_corner(int n) {
+  const std::vector<double> zeros(static_cast<std::size_t>(n), 0);
+  return {0.25, zeros, zeros};
+}
+
+template <Scheme S>
+RingMask face_corner_of(const S& scheme, int n) {
+  if constexpr (requires { scheme.face_corner(n); }) return scheme.face_corner(n);
+  return quarter_of_corner(n);
+}
 
 /// A scheme with the options of a mesh: all that decides on refined points beside topology and sharpness.
 template <Scheme S>
@@ -105,21 +182,30 @@ struct Rules {
   CreaseMethod creases = CreaseMethod::uniform;
   TriangleSubdivision triangles = TriangleSubdivision::catmark;
 
+  /// 2 if edge and face points come from rings.
+  int radius() const { return radius_of(scheme); }
+  CreaseMask crease() const { return crease_of(scheme); }
+
   /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's.
   VertexMask vertex(int n, const VertexTransition& to, bool cone) const {
-    if constexpr (requires { scheme.dart_vertex(n); })
-      if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return scheme.dart_vertex(n);
-    if constexpr (requires { scheme.cone_vertex(n); })
-      if (cone) return scheme.cone_vertex(n);
-    return scheme.smooth_vertex(n);
+    if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return dart_vertex_of(scheme, n);
+    return cone ? cone_vertex_of(scheme, n) : scheme.smooth_vertex(n);
   }
 
-  /// The mask of a smooth edge between faces of which so many are triangles.
+  /// The mask of a smooth edge between faces of which so many are triangles. Radius 1.
   EdgeMask edge(int triangle_count) const {
     if constexpr (requires { scheme.triangle_edge(1); })
       if (triangles == TriangleSubdivision::smooth && triangle_count > 0) return scheme.triangle_edge(triangle_count);
-    return scheme.smooth_edge();
+    if constexpr (EdgeMasks<S>) return scheme.smooth_edge();
+    return {};
   }
+
+  /// Radius 2.
+  RingMask edge_end(int n, int other) const {
+    if constexpr (RingMasks<S>) return scheme.edge_end(n, other);
+    return {};
+  }
+  RingMask face_corner(int n) const { return face_corner_of(scheme, n); }
 };
 
 }  // namespace shaolin

@@ -57,7 +57,39 @@ void SplitProgram::Compiler::add_edge(int edge, const EdgeMask& mask) {
   program_.edge_steps_.push_back(step);
 }
 
+SplitProgram::StencilCompiler::StencilCompiler(const Neighbourhood& parent, SplitProgram& program) : program_(program) {
+  for (const Ring& ring : parent.rings) {
+    rings_.try_emplace(ring.vertex, &ring);
+    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id(), face);
+    for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
+      // A ring that holds the edge between two faces is to be had: at an end, the edge is a crease or a boundary.
+      const bool inside = ring.closed || (i > 0 && i + 1 < ring.spokes.size());
+      const auto [at, is_new] = edges_.try_emplace(ring.spokes[i].edge, &ring, i);
+      if (!is_new && inside) at->second = {&ring, i};
+    }
+  }
+}
+
+void SplitProgram::StencilCompiler::add(const Stencil& stencil) {
+  program_.rows_.push_back({static_cast<int>(program_.indices_.size()), static_cast<int>(stencil.weights().size())});
+  for (const auto& [point, weight] : stencil.weights()) {
+    program_.indices_.push_back(point);
+    program_.weights_.push_back(weight);
+  }
+}
+
+std::size_t SplitProgram::bytes() const {
+  return (face_steps_.capacity() + rows_.capacity()) * sizeof(Span) + vertex_steps_.capacity() * sizeof(VertexStep) +
+         edge_steps_.capacity() * sizeof(EdgeStep) + steps_.capacity() * sizeof(Step) +
+         indices_.capacity() * sizeof(int) + weights_.capacity() * sizeof(double);
+}
+
 void SplitProgram::run(const Vec3* parent, Vec3* child) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    child[i].setZero();
+    for (int at = rows_[i].begin; at < rows_[i].begin + rows_[i].count; ++at)
+      child[i] += weights_[static_cast<std::size_t>(at)] * parent[indices_[static_cast<std::size_t>(at)]];
+  }
   static thread_local std::vector<Vec3> face_points;
   face_points.resize(face_steps_.size());
   for (std::size_t i = 0; i < face_steps_.size(); ++i) face_points[i] = face_point(gather(parent, face_steps_[i]));

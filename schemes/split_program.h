@@ -1,13 +1,17 @@
 #pragma once
 /// How the control points of a child patch come from its parent's: masks and indices, compiled once per configuration.
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "neighbourhood.h"
 #include "point_rules.h"
+#include "ring_stencils.h"
 
 namespace shaolin {
 
-/// First the new face points that are needed (quad split), then every point of the child, in the child's order.
+/// Radius 1: first the new face points that are needed (quad split), then every point of the child, in the child's
+/// order, by symmetric sums. Radius 2: every point as a stencil.
 class SplitProgram {
  public:
   /// Compiles the points `wanted` of the level below `parent`, whose vertices are numbered as the parent's points.
@@ -15,10 +19,13 @@ class SplitProgram {
   static SplitProgram compile(const Rules<S>& rules, const Neighbourhood& parent,
                               const std::vector<RefinedVertex>& wanted);
 
-  int point_count() const { return static_cast<int>(steps_.size()); }
+  int point_count() const { return static_cast<int>(steps_.size() + rows_.size()); }
 
   /// Writes point_count() points. O(point_count() x ring size).
   void run(const Vec3* parent, Vec3* child) const;
+
+  /// Bytes on the heap.
+  std::size_t bytes() const;
 
  private:
   struct Span {
@@ -43,6 +50,7 @@ class SplitProgram {
     int index;  ///< into vertex_steps_, edge_steps_ or the new face points
   };
   class Compiler;
+  class StencilCompiler;
 
   PointGather gather(const Vec3* points, const Span& span) const {
     return {points, indices_.data() + span.begin, span.count};
@@ -54,6 +62,8 @@ class SplitProgram {
   std::vector<EdgeStep> edge_steps_;
   std::vector<Step> steps_;
   std::vector<int> indices_;
+  std::vector<Span> rows_;  ///< stencils: a stretch of indices_ and weights_ each
+  std::vector<double> weights_;
 };
 
 /// Looks masks and rings up and writes the program.
@@ -91,10 +101,46 @@ class SplitProgram::Compiler {
   std::map<int, int> face_steps_;
 };
 
+/// Writes stencils. A neighbourhood's rings and the edges and faces in them are looked up by name.
+class SplitProgram::StencilCompiler {
+ public:
+  StencilCompiler(const Neighbourhood& parent, SplitProgram& program);
+
+  const Ring* ring(int vertex) const {
+    const auto at = rings_.find(vertex);
+    return at == rings_.end() ? nullptr : at->second;
+  }
+  const FaceSides& face(int id) const { return faces_.at(id); }
+  /// A ring and the place of an edge among its spokes.
+  const std::pair<const Ring*, std::size_t>& edge(int id) const { return edges_.at(id); }
+  void add(const Stencil& stencil);
+
+ private:
+  SplitProgram& program_;
+  std::unordered_map<int, const Ring*> rings_;
+  std::unordered_map<int, FaceSides> faces_;
+  std::unordered_map<int, std::pair<const Ring*, std::size_t>> edges_;
+};
+
 template <Scheme S>
 SplitProgram SplitProgram::compile(const Rules<S>& rules, const Neighbourhood& parent,
                                    const std::vector<RefinedVertex>& wanted) {
   SplitProgram program;
+  if (rules.radius() == 2) {
+    StencilCompiler compiler(parent, program);
+    const RingStencils stencils(rules, [&](int vertex) { return compiler.ring(vertex); });
+    for (const RefinedVertex& from : wanted) {
+      if (from.kind == RefinedVertex::Kind::vertex) {
+        compiler.add(stencils.vertex(*compiler.ring(from.id)));
+      } else if (from.kind == RefinedVertex::Kind::edge) {
+        const auto& [ring, spoke] = compiler.edge(from.id);
+        compiler.add(stencils.edge(*ring, spoke));
+      } else {
+        compiler.add(stencils.face(compiler.face(from.id)));
+      }
+    }
+    return program;
+  }
   Compiler compiler(parent, S::face_kind, program);
   program.sides_are_face_points_ = S::face_kind == FaceKind::quad;
   for (const RefinedVertex& from : wanted) {
@@ -103,7 +149,7 @@ SplitProgram SplitProgram::compile(const Rules<S>& rules, const Neighbourhood& p
         const Ring& ring = compiler.ring(from.id);
         const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
         compiler.add_vertex(ring, to, rules.vertex(static_cast<int>(ring.spokes.size()), to, ring.cone),
-                            rules.scheme.crease);
+                            rules.crease());
         break;
       }
       case RefinedVertex::Kind::edge:

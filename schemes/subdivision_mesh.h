@@ -12,19 +12,17 @@
 namespace shaolin {
 
 /// A triangle or quad mesh under a scheme. refine() makes the whole next level; patch() and Patch::child() refine one
-/// face and leave its neighbours coarse. Both apply the same masks and sharpness rules (point_rules.h, sharpness.h) and
-/// give the same points, bit for bit.
+/// face and leave its neighbours coarse. Both apply the same masks and sharpness rules (point_rules.h, sharpness.h;
+/// ring_stencils.h for radius 2) and give the same points: bit for bit where sums are symmetric (radius 1).
 template <Scheme S>
 class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh> {
   using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
-  static_assert(S::radius == 1, "masks of radius-1 schemes read the first ring only");
 
  public:
   /// Level 0. Throws InputError if the mesh does not suit the scheme. O(size log size).
   explicit SubdivisionMesh(const ControlMesh& control, const S& scheme = {})
-      : SubdivisionMesh(cut_to_manifold(control, scheme.basis == Basis::linear), control.positions, nullptr,
-                        std::make_shared<ConfigurationTable<S>>(
-                            Rules<S>{scheme, control.crease_method, control.triangle_subdivision})) {}
+      : SubdivisionMesh(cut_to_manifold(control, basis_of(scheme) == Basis::linear), control.positions, nullptr,
+                        make_table({scheme, control.crease_method, control.triangle_subdivision}, control)) {}
 
   const Rules<S>& rules() const { return table_->rules(); }
 
@@ -48,7 +46,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
   /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
   Patch<S> patch(Mesh::Corner corner) const {
-    auto match = table_->match(this->neighbourhood(corner, S::radius));
+    auto match = table_->match(this->neighbourhood(corner, rules().radius()));
     Patch<S> result{match.configuration, {}};
     result.points.reserve(match.vertices.size());
     for (const int vertex : match.vertices) result.points.push_back(this->point(vertex));
@@ -60,8 +58,10 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
   /// Limit position and normal at corner k of a face, seen from that face.
   LimitSample limit(int face, int k) const {
-    for (Patch<S> patch = this->patch({face, k});; patch = patch.child(0))
+    Patch<S> patch = this->patch({face, k});
+    for (int level = 0; level <= detail::most_levels; ++level, patch = patch.child(0))
       if (std::optional<LimitSample> limit = evaluate_corner(patch, 0)) return *limit;
+    return {patch.points.front(), Vec3::Zero(), {}};  // of a scheme that does not converge
   }
 
   /// The limit position of a vertex that has a face; found once, then kept. Thread-safe.
@@ -93,6 +93,16 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
     }
   }
 
+  static std::shared_ptr<ConfigurationTable<S>> make_table(Rules<S> rules, const ControlMesh& control) {
+    std::vector<int> faces_at(control.positions.size(), 0);
+    int most = 6;  // neighbours that a vertex has at any level: one more than its faces; later, the corners of a face
+    for (const int vertex : control.face_vertices)
+      most = std::max(most, ++faces_at[static_cast<std::size_t>(vertex)] + 1);
+    for (int f = 0; f < control.face_count(); ++f) most = std::max(most, control.face_size(f));
+    const bool is_convex = has_convex_masks(rules, most);
+    return std::make_shared<ConfigurationTable<S>>(std::move(rules), is_convex);
+  }
+
   static std::vector<Vec3> of_cut_vertices(const ManifoldMesh& topology, const std::vector<Vec3>& points) {
     std::vector<Vec3> result;
     for (const int origin : topology.origin) result.push_back(points[static_cast<std::size_t>(origin)]);
@@ -104,6 +114,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
     return child_of_face(S::face_kind == FaceKind::quad ? this->face_count() : 0) + side;
   }
   std::vector<Vec3> refined_points() const;
+  std::vector<Vec3> refined_points_by_stencils() const;
   ManifoldMesh refined_topology() const;
   void add_sharpness(ManifoldMesh& next) const;
 
@@ -130,8 +141,39 @@ int SubdivisionMesh<S>::child_of_side(int face, int place) const {
   return child_of_edge(this->side({face, place}));
 }
 
+/// Radius 2. Rings are made once, for every stencil reads several.
+template <Scheme S>
+std::vector<Vec3> SubdivisionMesh<S>::refined_points_by_stencils() const {
+  std::vector<Ring> rings(static_cast<std::size_t>(this->vertex_count()));
+  for (const int v : this->vertices())
+    if (this->corner_at(v).face >= 0) rings[static_cast<std::size_t>(v)] = this->ring(this->corner_at(v));
+  const RingStencils stencils(rules(), [&](int vertex) { return &rings[static_cast<std::size_t>(vertex)]; });
+
+  const Vec3* points = this->points().data();
+  std::vector<Vec3> result(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())));
+  for (const int v : this->vertices()) {
+    const Ring& ring = rings[static_cast<std::size_t>(v)];
+    result[static_cast<std::size_t>(v)] = ring.faces.empty() ? this->point(v) : stencils.vertex(ring).of(points);
+    for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
+      const int e = ring.spokes[i].edge;
+      if (e >= this->edge_count() || this->edge(e).a != v) continue;
+      result[static_cast<std::size_t>(child_of_edge(e))] = stencils.edge(ring, i).of(points);
+    }
+  }
+  for (const int f : this->faces()) {
+    if (!this->is_held(f)) continue;
+    if (S::face_kind == FaceKind::quad)
+      result[static_cast<std::size_t>(child_of_face(f))] = stencils.face(this->face_sides(f)).of(points);
+    for (int i = 0; i < this->face_size(f); ++i)
+      if (this->degenerate_side({f, i}) >= 0)
+        result[static_cast<std::size_t>(child_of_side(f, i))] = this->point(this->face(f)[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
 template <Scheme S>
 std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
+  if (rules().radius() == 2) return refined_points_by_stencils();
   std::vector<Vec3> face_points(static_cast<std::size_t>(this->face_count()));
   for (const int f : this->faces()) {
     const std::span<const int> v = this->face(f);
@@ -150,7 +192,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     const int n = static_cast<int>(ends.size());
     const VertexTransition to = vertex_transition(ring.sharpness, ring.spoke_sharpness(), ring.half_sharpness());
     result[static_cast<std::size_t>(v)] =
-        vertex_point(to, rules().vertex(n, to, ring.cone), rules().scheme.crease, this->point(v),
+        vertex_point(to, rules().vertex(n, to, ring.cone), rules().crease(), this->point(v),
                      {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
   }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs every documented command line of the tool, and holds the README's library example against tests/consumer.
+"""Runs every documented command line of the tool, and holds the examples of code against tests/consumer.
 
-test_readme.py FOLDER: FOLDER is made anew and holds the checkout's data/ while the commands run; the environment's
+test_readme.py FOLDER: FOLDER is made anew and holds the checkout's data/ and build/release/ while the
+commands run; the environment's
 SHAOLIN_BINARY is the tool. A line counts if it stands in an `sh` block and begins with `shaolin ` or
 `build/release/shaolin `; lines that end in a backslash go on. Each must exit with 0.
 """
@@ -36,6 +37,8 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "out").mkdir(parents=True)
     (folder / "data").symlink_to(ROOT / "data", target_is_directory=True)
+    (folder / "build").mkdir()
+    (folder / "build" / "release").symlink_to(Path(binary).resolve().parent, target_is_directory=True)
 
     faults, ran = [], 0
     for file in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
@@ -46,12 +49,15 @@ def main():
                 faults.append(f"{file.name}: shaolin {shlex.join(words)}: exit {done.returncode}\n{done.stderr}")
 
     consumer = ROOT / "tests" / "consumer"
-    for language, source in (("cmake", consumer / "CMakeLists.txt"), ("cpp", consumer / "main.cpp")):
-        examples = blocks(ROOT / "README.md", language)
-        if not examples or any(example not in source.read_text(encoding="utf-8") for example in examples):
-            faults.append(f"README.md: its {language} example is not part of tests/consumer/{source.name}")
+    for page, language, source in (("README.md", "cmake", "CMakeLists.txt"), ("README.md", "cpp", "main.cpp"),
+                                   ("docs/schemes.md", "cmake", "CMakeLists.txt"),
+                                   ("docs/schemes.md", "cpp", "midpoints.cpp")):
+        examples = blocks(ROOT / page, language)
+        built = (consumer / source).read_text(encoding="utf-8")
+        if not examples or any(example not in built for example in examples):
+            faults.append(f"{page}: its {language} example is not part of tests/consumer/{source}")
 
-    print("\n".join(faults) or f"{ran} documented commands ran, the library example is the one that is built")
+    print("\n".join(faults) or f"{ran} documented commands ran, the examples are those that are built")
     return 1 if faults or ran == 0 else 0
 
 

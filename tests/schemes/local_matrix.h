@@ -51,7 +51,7 @@ LocalMatrix local_matrix(ControlMesh mesh) {
 }
 
 /// A mask as a row over the local matrix's columns.
-inline Eigen::RowVectorXd row_of(const LocalMatrix& local, const TangentMask& mask) {
+inline Eigen::RowVectorXd row_of(const LocalMatrix& local, const RingMask& mask) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(local.matrix.rows());
   row[0] = mask.vertex;
   for (std::size_t i = 0; i < mask.edges.size(); ++i) row[static_cast<Eigen::Index>(1 + i)] = mask.edges[i];

@@ -34,14 +34,14 @@ double subdominant(FaceKind kind, double angle) {
   return kind == FaceKind::triangle ? 3.0 / 8 + c / 4 : (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 16;
 }
 
-double sum(const TangentMask& mask) {
+double sum(const RingMask& mask) {
   double total = mask.vertex;
   for (const double w : mask.edges) total += w;
   for (const double w : mask.diagonals) total += w;
   return total;
 }
 
-double magnitude(const TangentMask& mask) {
+double magnitude(const RingMask& mask) {
   double total = std::abs(mask.vertex);
   for (const double w : mask.edges) total += std::abs(w);
   for (const double w : mask.diagonals) total += std::abs(w);
@@ -94,13 +94,13 @@ TEMPLATE_TEST_CASE("Weights sum to one, tangent weights to zero", "[schemes][mas
     CHECK(vertex.vertex >= 0);
     CHECK(limit.vertex > 0);
     for (const double first : {0.0, n / 4.0, 0.3}) {
-      const TangentMask mask = S::smooth_tangent(n, first);
+      const RingMask mask = S::smooth_tangent(n, first);
       CHECK(std::abs(sum(mask)) < 1e-13 * magnitude(mask));
     }
   }
   for (int k = 1; k <= 12; ++k) {
     CAPTURE(k);
-    const TangentMask mask = S::crease_cross_tangent(k);
+    const RingMask mask = S::crease_cross_tangent(k);
     CHECK(std::abs(sum(mask)) < 1e-13 * magnitude(mask));
   }
 }

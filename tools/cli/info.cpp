@@ -38,10 +38,11 @@ const char* boundary_name(BoundaryInterpolation boundary) {
 
 void print_general(const LimitSurface& surface, const std::string& scheme, const ModelOptions& options) {
   const ControlMesh& mesh = surface.control_mesh();
-  const char* const origin = !options.scheme.empty() ? "by --scheme"
-                             : !mesh.scheme.empty()  ? "by the file's tag"
-                             : mesh.all_triangles()  ? "all faces are triangles"
-                                                     : "not all faces are triangles";
+  const char* const origin = !options.scheme.empty()   ? "by --scheme"
+                             : !options.plugin.empty() ? "by --plugin"
+                             : !mesh.scheme.empty()    ? "by the file's tag"
+                             : mesh.all_triangles()    ? "all faces are triangles"
+                                                       : "not all faces are triangles";
   std::printf("model     %s\n", options.file.c_str());
   std::printf("scheme    %s (%s)\n", scheme.c_str(), origin);
   std::printf("boundary  %s\n", boundary_name(mesh.boundary));

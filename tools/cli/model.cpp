@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "schemes/builtin.h"
+#include "schemes/load_plugin.h"
 #include "schemes/obj.h"
 
 namespace shaolin {
@@ -25,31 +26,44 @@ CLI::Validator is_scheme_name() {
 
 void add_model_options(CLI::App& app, ModelOptions& options) {
   app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
-  app.add_option("--scheme", options.scheme,
-                 "Subdivision scheme: " + builtin_scheme_names() +
-                     " (default: the file's 't scheme' tag; without it, loop if all faces are triangles, else catmark)")
-      ->check(is_scheme_name())
-      ->type_name("NAME");
+  CLI::Option* const scheme = app.add_option(
+      "--scheme", options.scheme,
+      "Subdivision scheme: " + builtin_scheme_names() +
+          " (default: the file's 't scheme' tag; without it, loop if all faces are triangles, else catmark)");
+  scheme->check(is_scheme_name())->type_name("NAME");
+  add_plugin_option(app, options.plugin)->excludes(scheme);
+}
+
+CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file) {
+  return app.add_option("--plugin", file, "A shared library with a scheme (see docs/schemes.md), whose code is run")
+      ->type_name("FILE");
 }
 
 Model load_model(const ModelOptions& options) {
   Model model;
   model.mesh = read_obj(options.file);
-  model.scheme = options.scheme.empty() ? default_scheme(model.mesh) : options.scheme;
+  if (!options.plugin.empty()) {
+    LoadedPlugin plugin = load_plugin(options.plugin);
+    model.scheme = std::move(plugin.name);
+    model.masks = std::move(plugin.masks);
+  } else {
+    model.scheme = options.scheme.empty() ? default_scheme(model.mesh) : options.scheme;
+  }
   print_warnings(model.mesh, 0);
   return model;
 }
 
 std::unique_ptr<LimitSurface> build_surface(Model model) {
   const std::size_t printed = model.mesh.warnings.size();
-  auto surface = make_limit_surface(std::move(model.mesh), model.scheme);
+  auto surface = model.masks ? make_limit_surface(std::move(model.mesh), model.masks)
+                             : make_limit_surface(std::move(model.mesh), model.scheme);
   print_warnings(surface->control_mesh(), printed);
   return surface;
 }
 
 Scene build_scene(Model model) {
   const std::size_t printed = model.mesh.warnings.size();
-  Scene scene(std::move(model.mesh), model.scheme);
+  Scene scene = model.masks ? Scene(std::move(model.mesh), model.masks) : Scene(std::move(model.mesh), model.scheme);
   print_warnings(scene.surface().control_mesh(), printed);
   return scene;
 }

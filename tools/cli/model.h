@@ -8,28 +8,35 @@
 #include "intersect/scene.h"
 #include "schemes/control_mesh.h"
 #include "schemes/limit_surface.h"
+#include "schemes/runtime_scheme.h"
 
 namespace shaolin {
 
-/// `MODEL` and `--scheme`.
+/// `MODEL`, and `--scheme` or `--plugin`.
 struct ModelOptions {
   std::filesystem::path file;
-  std::string scheme;  ///< a built-in scheme; empty: what the mesh asks for, see default_scheme()
+  std::string scheme;            ///< a built-in scheme; empty: what the mesh asks for, see default_scheme()
+  std::filesystem::path plugin;  ///< a shared library with a scheme, see load_plugin(); empty: none
 };
 
 /// Accepts the names of the built-in schemes.
 CLI::Validator is_scheme_name();
 
-/// Adds the positional MODEL (required) and --scheme.
+/// Adds the positional MODEL (required), and --scheme and --plugin, which exclude each other.
 void add_model_options(CLI::App& app, ModelOptions& options);
+
+/// Adds --plugin FILE.
+CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file);
 
 /// A mesh as read, and the scheme to subdivide it with.
 struct Model {
   ControlMesh mesh;
-  std::string scheme;
+  std::string scheme;                        ///< its name
+  std::shared_ptr<const SchemeMasks> masks;  ///< of a plug-in; null: `scheme` is built in
 };
 
-/// Reads the OBJ file and settles the scheme. Prints the mesh's warnings to stderr. Throws InputError.
+/// Reads the OBJ file and settles the scheme; a plug-in is loaded, and runs. Prints the mesh's warnings to stderr.
+/// Throws InputError.
 Model load_model(const ModelOptions& options);
 
 /// Builds the surface or the scene; warnings that arise only then go to stderr, too. Throw InputError.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "schemes/builtin.h"
+#include "tools/cli/mask_tables.h"
 #include "tools/cli/model.h"
 #include "tools/cli/output_file.h"
 #include "tools/conformance/report.h"
@@ -12,21 +13,10 @@
 namespace shaolin {
 namespace {
 
-const char* faces_of(FaceKind kind) { return kind == FaceKind::triangle ? "triangles" : "quads"; }
-
-void show_vertex_masks(const SchemeMasks& masks) {
-  const bool quads = masks.face_kind() == FaceKind::quad;
-  std::printf("\nvertex masks: the vertex, each of n neighbours%s\n", quads ? ", each of n new face points" : "");
-  std::printf("limit masks:  the vertex, each of n neighbours%s\n\n", quads ? ", each of n diagonals" : "");
-  std::printf("  %3s  %-34s  %-34s\n", "n", "refinement", "limit");
-  for (const int n : {3, 4, 5, 6, 7, 8, 12, 20}) {
-    const VertexMask vertex = masks.smooth_vertex(n);
-    const LimitMask limit = masks.smooth_limit(n);
-    std::printf("  %3d  %10.8f  %10.8f", n, vertex.vertex, vertex.edge);
-    quads ? std::printf("  %10.8f  ", vertex.face) : std::printf("              ");
-    std::printf("%10.8f  %10.8f", limit.vertex, limit.edge);
-    quads ? std::printf("  %10.8f\n", limit.diagonal) : std::printf("\n");
-  }
+/// Either kind of scheme, as plug-ins are handed over. The built-in ones all give crease rules.
+LoadedPlugin load(const SchemeChoice& choice) {
+  if (!choice.plugin.empty()) return load_plugin(choice.plugin);
+  return {choice.name, builtin_masks(choice.name), true};
 }
 
 void show_spectra(const ConformanceReport& report) {
@@ -49,6 +39,14 @@ void print_table(const ConformanceReport& report) {
   }
 }
 
+/// NAME or --plugin, one of them.
+void add_scheme_choice(CLI::App& app, SchemeChoice& choice) {
+  CLI::Option_group* const group = app.add_option_group("scheme", "One of them");
+  group->add_option("NAME", choice.name, "The scheme: " + builtin_scheme_names())->check(is_scheme_name());
+  add_plugin_option(*group, choice.plugin);
+  group->require_option(1);
+}
+
 }  // namespace
 
 int scheme_list() {
@@ -57,39 +55,34 @@ int scheme_list() {
   return exit_done;
 }
 
-int scheme_show(const std::string& name) {
-  const auto masks = builtin_masks(name);
-  const EdgeMask edge = masks->smooth_edge();
-  const CreaseMask crease = masks->crease();
-  std::printf("%s: on %s, %s\n\n", name.c_str(), faces_of(masks->face_kind()),
-              masks->basis() == Basis::spline ? "splines where regular" : "linear patches");
-  std::printf("edge mask:    each end %.8f, each %s %.8f\n", edge.end,
-              masks->face_kind() == FaceKind::quad ? "new face point" : "opposite vertex", edge.side);
-  std::printf("crease mask:  the vertex %.8f, each neighbour %.8f; limit %.8f, %.8f\n", crease.vertex, crease.edge,
-              crease.limit_vertex, crease.limit_edge);
-  show_vertex_masks(*masks);
-  show_spectra(check_conformance(name, masks));
+int scheme_show(const SchemeChoice& choice) {
+  const LoadedPlugin scheme = load(choice);
+  print_masks(scheme);
+  show_spectra(check_conformance(scheme.name, scheme.masks));
   return exit_done;
 }
 
 int scheme_check(const SchemeCheckOptions& options) {
-  const auto masks = builtin_masks(options.name);
+  const LoadedPlugin scheme = load(options.choice);
+  const std::filesystem::path page = options.report / (scheme.name + ".html");
   std::unique_ptr<OutputFile> file;
   if (!options.report.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.report, error);
     if (error) throw InputError("cannot make the folder: " + error.message(), options.report.string());
-    file = std::make_unique<OutputFile>(options.report / (options.name + ".html"));
+    file = std::make_unique<OutputFile>(page);
   }
-  const ConformanceReport report = check_conformance(options.name, masks);
+  if (!scheme.has_crease)
+    std::printf("%s has no crease rules: the cubic B-spline curve's are used\n\n", scheme.name.c_str());
+  const ConformanceReport report = check_conformance(scheme.name, scheme.masks);
   print_table(report);
   if (file) {
     std::ofstream stream(file->path());
     write_html(stream, report);
     stream.close();
-    if (!stream) throw InputError("cannot write the report", (options.report / (options.name + ".html")).string());
+    if (!stream) throw InputError("cannot write the report", page.string());
     file->commit();
-    std::printf("\nwrote %s\n", (options.report / (options.name + ".html")).c_str());
+    std::printf("\nwrote %s\n", page.c_str());
   }
   std::printf("\n%s\n", report.passed() ? "PASS" : "FAIL");
   return report.passed() ? exit_done : exit_check_failed;
@@ -103,14 +96,12 @@ void add_scheme(CLI::App& app, Command& command) {
 
   const auto options = std::make_shared<SchemeCheckOptions>();
   CLI::App* show = sub->add_subcommand("show", "Print a scheme's masks, limit masks and eigenvalues by valence");
-  show->add_option("NAME", options->name, "The scheme: " + builtin_scheme_names())->required()->check(is_scheme_name());
-  show->callback([options, &command] { command = [options] { return scheme_show(options->name); }; });
+  add_scheme_choice(*show, options->choice);
+  show->callback([options, &command] { command = [options] { return scheme_show(options->choice); }; });
 
   CLI::App* check = sub->add_subcommand(
       "check", "Run the conformance kit: sums, invariance, spectra, limit masks, bounds; exits with 1 on a failure");
-  check->add_option("NAME", options->name, "The scheme: " + builtin_scheme_names())
-      ->required()
-      ->check(is_scheme_name());
+  add_scheme_choice(*check, options->choice);
   check->add_option("--report", options->report, "Folder for a page with spectra and characteristic maps")
       ->type_name("DIR");
   check->callback([options, &command] { command = [options] { return scheme_check(*options); }; });

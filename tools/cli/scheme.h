@@ -11,16 +11,23 @@ namespace shaolin {
 /// Prints a line per built-in scheme.
 int scheme_list();
 
-/// Prints a scheme's masks and eigenvalues by valence. Throws InputError for an unknown name.
-int scheme_show(const std::string& name);
+/// `NAME` or `--plugin FILE`.
+struct SchemeChoice {
+  std::string name;              ///< a built-in scheme; empty: the plug-in's
+  std::filesystem::path plugin;  ///< see load_plugin()
+};
+
+/// Prints a scheme's masks and eigenvalues by valence. Throws InputError for an unknown name or a plug-in that cannot
+/// be used.
+int scheme_show(const SchemeChoice& choice);
 
 struct SchemeCheckOptions {
-  std::string name;
+  SchemeChoice choice;
   std::filesystem::path report;  ///< folder for NAME.html; empty: none
 };
 
 /// Runs the conformance kit and prints its table. Returns exit_check_failed if a check failed. Throws InputError for an
-/// unknown name or a folder that cannot be written to.
+/// unknown name, a plug-in that cannot be used, or a folder that cannot be written to.
 int scheme_check(const SchemeCheckOptions& options);
 
 /// Registers the subcommand.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "intersect/scene.h"
+#include "schemes/errors.h"
 #include "schemes/limit_surface.h"
 #include "tools/cli/output_file.h"
 #include "tools/cli/render_stats.h"
@@ -30,6 +31,10 @@ int dense_level_for(const Oracle& oracle) {
 Validation check_model(const ValidateOptions& options) {
   Stopwatch stopwatch;
   Model model = load_model(options.model);
+  if (model.masks)
+    throw InputError("OpenSubdiv, which 'validate' holds surfaces against, has no scheme '" + model.scheme +
+                         "'; 'shaolin scheme check --plugin' needs no other library",
+                     options.model.plugin.string());
   const Oracle oracle(model.mesh, model.scheme);
   Validation result{.model = options.model.file.string(), .scheme = model.scheme, .seed = options.seed};
   const Scene scene = build_scene(std::move(model));

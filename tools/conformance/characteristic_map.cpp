@@ -20,6 +20,12 @@ Eigen::MatrixX2d layout(const Eigen::MatrixXd& matrix, double eigenvalue, const 
   return basis * spokes.inverse() * wanted;
 }
 
+/// Twice the signed area of a triangle.
+double area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const Eigen::Vector2d u = b - a, v = c - a;
+  return u.x() * v.y() - u.y() * v.x();
+}
+
 }  // namespace
 
 template <FaceKind kind>
@@ -39,13 +45,22 @@ CharacteristicMap characteristic_map(const Patch<RuntimeScheme<kind>>& patch) {
   const auto at = [&](double u, double v) { return evaluate(flat, Parameter(u, v)); };
 
   // The ring: parameters of size (the larger of u and v, or their sum on triangles) between 1/2 and 1.
-  constexpr int across = 12, along = 24;
+  // Steps are powers of two: without polynomials, evaluation takes as many splits as a parameter has bits.
+  constexpr int across = 16, along = 32, drawn = 4;
   const auto parameter = [](double size, double share) -> Parameter {
     if (kind == FaceKind::triangle) return {size * (1 - share), size * share};
     return share <= 0.5 ? Parameter(size, 2 * size * share) : Parameter(2 * size * (1 - share), size);
   };
   double sum = 0, swept = 0;
+  int count = 0;
+  bool has_derivatives = false;
   map.least_jacobian = std::numeric_limits<double>::infinity();
+  const auto add = [&](double jacobian) {
+    sum += jacobian;
+    ++count;
+    map.least_jacobian = std::min(map.least_jacobian, jacobian);
+  };
+  std::vector<Eigen::Vector2d> before;
   for (int i = 0; i <= across; ++i) {
     std::vector<Eigen::Vector2d> line;
     for (int j = 0; j <= along; ++j) {
@@ -53,18 +68,23 @@ CharacteristicMap characteristic_map(const Patch<RuntimeScheme<kind>>& patch) {
       const LimitSample sample = at(p.x(), p.y());
       line.emplace_back(sample.position.x(), sample.position.y());
       if (!sample.derivatives) continue;
-      const double jacobian = sample.derivatives->du.cross(sample.derivatives->dv).z();
-      sum += jacobian;
-      map.least_jacobian = std::min(map.least_jacobian, jacobian);
+      has_derivatives = true;
+      add(sample.derivatives->du.cross(sample.derivatives->dv).z());
     }
+    // Without derivatives, the areas of the grid's triangles.
+    for (std::size_t j = 1; j < before.size() && !has_derivatives; ++j) {
+      add(area(before[j - 1], line[j - 1], line[j]));
+      add(area(before[j - 1], line[j], before[j]));
+    }
+    before = line;
     if (i == across)
       for (std::size_t j = 1; j < line.size(); ++j) {
         const Eigen::Vector2d &a = line[j - 1], &b = line[j];
         swept += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
       }
-    if (i % 3 == 0) map.lines.push_back(std::move(line));
+    if (i % drawn == 0) map.lines.push_back(std::move(line));
   }
-  for (int j = 0; j <= along; j += 3) {
+  for (int j = 0; j <= along; j += drawn) {
     std::vector<Eigen::Vector2d> line;
     for (int i = 0; i <= across; ++i) {
       const Parameter p = parameter(0.5 + 0.5 * i / across, static_cast<double>(j) / along);
@@ -73,7 +93,7 @@ CharacteristicMap characteristic_map(const Patch<RuntimeScheme<kind>>& patch) {
     }
     map.lines.push_back(std::move(line));
   }
-  map.least_jacobian /= std::abs(sum) / ((across + 1) * (along + 1));
+  map.least_jacobian /= std::abs(sum) / count;
   map.sweep = swept / (2 * std::numbers::pi / map.faces);
   return map;
 }

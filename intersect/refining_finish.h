@@ -1,0 +1,125 @@
+#pragma once
+/// The finish for surfaces without polynomials: the first point of a patch on a ray, by local refinement.
+#include "counters.h"
+#include "exact_finish.h"
+#include "limit_bounds.h"
+
+namespace shaolin {
+
+/// Finds the nearest zero of (x, y) with z in [near, far] on a patch whose points are given in a ray's frame.
+///
+/// A cell is dropped only on proof: the bound of its limit (limit_bounds.h) lies to one side of the ray, beyond the
+/// nearest hit, or where its flat part meets the ray, with all that the remainder can add, no parameter of the cell is.
+/// Where the neighbourhood is a lattice's, the remainder falls with the square of a cell's size: one child a split is
+/// left, and after half as many splits as a double has bits the cell is its flat part to within rounding, which gives
+/// parameter and distance. Nothing is kept between rays.
+template <Scheme S>
+class RefiningFinish {
+ public:
+  /// As ExactFinish.
+  RefiningFinish(double error, double near, double far, bool far_is_hit, RayCounters& counters)
+      : error_(error), near_(near), has_hit_(far_is_hit), counters_(counters) {
+    best_.distance = far;
+  }
+
+  /// True if a hit was found; then hit() is the nearest.
+  bool solve(const Patch<S>& projected) {
+    visit(projected, Parameter::Zero(), 1);
+    return found_;
+  }
+  const PatchHit& hit() const { return best_; }
+
+ private:
+  using D = Domain<S::face_kind>;
+
+  /// As in ExactFinish: cells this small are points, sooner where a ray runs along the surface.
+  static constexpr double smallest = 0x1p-52;
+  static constexpr int patience = 512;
+  static constexpr double smallest_out_of_patience = 0x1p-42;
+
+  /// A cell's parameters p stand for origin + scale * p.
+  void visit(const Patch<S>& cell, const Parameter& origin, double scale);
+  bool is_outside(const Box& box) const {
+    return box.lower.x() > error_ || box.upper.x() < -error_ || box.lower.y() > error_ || box.upper.y() < -error_ ||
+           box.upper.z() < near_ - error_ || box.lower.z() > horizon();
+  }
+  bool is_point(const Box& box) const {
+    const double across = std::max(box.upper.head<2>().maxCoeff(), -box.lower.head<2>().minCoeff());
+    return across <= 2 * error_ && box.upper.z() - box.lower.z() <= 16 * error_;
+  }
+  void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
+  double horizon() const {
+    return best_.distance + (has_hit_ ? -std::exp2(std::min(4, cells_ / patience)) * error_ : error_);
+  }
+
+  double error_;
+  double near_;
+  bool has_hit_;
+  RayCounters& counters_;
+  PatchHit best_;
+  bool found_ = false;
+  int cells_ = 0;
+};
+
+template <Scheme S>
+void RefiningFinish<S>::accept(const Parameter& at, double distance, const Parameter& origin, double scale) {
+  if (distance < near_ - error_ || distance > horizon()) return;
+  best_ = {origin + scale * at, std::max(distance, near_)};
+  found_ = has_hit_ = true;
+}
+
+template <Scheme S>
+void RefiningFinish<S>::visit(const Patch<S>& cell, const Parameter& origin, double scale) {
+  ++counters_.cells;
+  ++cells_;
+  const Box bound = limit_bound(cell);
+  if (is_outside(bound)) return;
+  const double size = std::abs(scale);
+  if (is_point(bound) || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience))
+    return accept(D::centre(), cell.points.front().z(), origin, scale);
+
+  // Parameters at which the flat part may lie on the ray; all, if it stands edge-on to the ray.
+  Parameter low(0, 0), high(1, 1);
+  if (const std::optional<FlatPart> part = flat_part(cell)) {
+    Eigen::Matrix2d jacobian;
+    jacobian << part->along_u.x(), part->along_v.x(), part->along_u.y(), part->along_v.y();
+    if (std::abs(jacobian.determinant()) > 1e-12 * jacobian.col(0).norm() * jacobian.col(1).norm()) {
+      const Eigen::Matrix2d inverse = jacobian.inverse();
+      const Box& rest = part->remainder;
+      const Eigen::Vector2d half = 0.5 * (rest.upper - rest.lower).head<2>();
+      const Eigen::Vector2d middle = part->corner.head<2>() + 0.5 * (rest.upper + rest.lower).head<2>();
+      const Parameter centre = -(inverse * middle);
+      const Parameter reach = inverse.cwiseAbs() * (half.array() + error_).matrix() * (1 + 1e-10);
+      low = centre - reach;
+      high = centre + reach;
+      if (low.x() > 1 || low.y() > 1 || high.x() < 0 || high.y() < 0) return;
+      if (half.maxCoeff() <= 0.5 * error_) {
+        const Parameter at = D::nearest(centre);
+        if (((at - centre).cwiseAbs() - reach).maxCoeff() > 0) return;
+        const double distance = part->at(at).z() + 0.5 * (rest.lower.z() + rest.upper.z());
+        return accept(at, distance, origin, scale);
+      }
+    }
+  }
+
+  struct Child {
+    double distance;
+    int k;
+    Patch<S> patch;
+  };
+  std::vector<Child> children;
+  for (int k = 0; k < 4; ++k) {
+    const Parameter a = D::to_parent(k, Parameter::Zero()), b = D::to_parent(k, Parameter::Ones());
+    if (((a.cwiseMin(b) - high).array() > 0).any() || ((low - a.cwiseMax(b)).array() > 0).any()) continue;
+    Child child{0, k, cell.child(k)};
+    for (const Vec3& point : child.patch.points) child.distance += point.z();
+    child.distance /= static_cast<double>(child.patch.points.size());
+    children.push_back(std::move(child));
+  }
+  std::sort(children.begin(), children.end(),
+            [](const Child& a, const Child& b) { return std::tie(a.distance, a.k) < std::tie(b.distance, b.k); });
+  for (const Child& child : children)
+    visit(child.patch, origin + scale * D::to_parent(child.k, Parameter::Zero()), scale * D::scale(child.k));
+}
+
+}  // namespace shaolin

@@ -1,0 +1,119 @@
+// --plugin of the tool: every subcommand takes it, and a bad one is exit 3 with a reason.
+#include <cmath>
+
+#include "tests/plugins/plugin_files.h"
+
+namespace shaolin::test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a bad plug-in exits with 3 and says why", "[tools][plugin]") {
+  const Folder folder;
+  const std::string model = data_file("whale.obj");
+  const auto refused = [&](const std::filesystem::path& file, const std::string& message) {
+    const auto before = folder.list();
+    for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+             {"info", model, "--plugin", file},
+             {"render", model, "-o", folder / "out.exr", "--size", "8x8", "--plugin", file},
+             {"scheme", "show", "--plugin", file},
+             {"scheme", "check", "--plugin", file, "--report", folder / "report"}}) {
+      const Outcome outcome = folder.run(line);
+      CAPTURE(line, message, outcome.text);
+      CHECK(outcome.status == 3);
+      CHECK(holds(outcome.text, message));
+      CHECK(holds(outcome.text, file.string()));
+    }
+    CHECK(folder.list() == before);
+  };
+  refused(folder / "absent.so", "no such file");
+  refused(folder.write("text.so", "v 0 0 0\n"), "expected a shared library");
+  refused(bad_plugin("no_entry"), "does not export shaolin_scheme_plugin()");
+  for (const FaultMessage& expected : fault_messages) {
+    const Fault fault(expected.fault);
+    const Outcome outcome = folder.run({"info", model, "--plugin", bad_plugin("faulty")});
+    CAPTURE(expected.fault, outcome.text);
+    CHECK(outcome.status == 3);
+    CHECK(holds(outcome.text, expected.message));
+  }
+}
+
+TEST_CASE("a mask that fails while a scene is used exits with 3", "[tools][plugin]") {
+  const Folder folder;
+  std::string fan = "v 0 0 1\n", faces;  // a cone over a polygon of twelve sides, and its bottom
+  for (int i = 0; i < 12; ++i) {
+    fan += "v " + std::to_string(std::cos(i * 0.5236)) + " " + std::to_string(std::sin(i * 0.5236)) + " 0\n";
+    const std::string a = std::to_string(2 + i), b = std::to_string(2 + (i + 1) % 12);
+    faces += "f 1 " + a + " " + b + "\nf 14 " + b + " " + a + "\n";
+  }
+  const std::string model = folder.write("fan.obj", fan + "v 0 0 -1\n" + faces);
+  const Fault fault("late throw");
+  const Outcome outcome =
+      folder.run({"render", model, "-o", folder / "out.exr", "--size", "32x32", "--plugin", bad_plugin("faulty")});
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 3);
+  CHECK(holds(outcome.text, "smooth_vertex(12) of the scheme 'Faulty' failed: more than eight is too many"));
+  CHECK(folder.list() == std::set<std::string>{"fan.obj"});
+}
+
+TEST_CASE("--plugin and a scheme's name exclude each other", "[tools][plugin]") {
+  const Folder folder;
+  const std::string plain = example_plugin("plain");
+  CHECK(folder.run({"info", data_file("whale.obj"), "--plugin", plain, "--scheme", "loop"}).status == 2);
+  CHECK(folder.run({"scheme", "show", "loop", "--plugin", plain}).status == 2);
+  CHECK(folder.run({"scheme", "check", "loop", "--plugin", plain}).status == 2);
+  CHECK(folder.run({"scheme", "show"}).status == 2);
+  CHECK(folder.run({"scheme", "check"}).status == 2);
+  for (const std::string sub : {"render", "query", "eval", "info", "validate"})
+    CHECK(holds(folder.run({sub, "--help"}).text, "--plugin"));
+}
+
+TEST_CASE("query, eval, info and render take a plug-in", "[tools][plugin]") {
+  const Folder folder;
+  const std::string model = data_file("whale.obj"), plain = example_plugin("plain");
+  const Outcome info = folder.run({"info", model, "--plugin", plain});
+  CHECK(info.status == 0);
+  CHECK(holds(info.text, "plain (by --plugin)"));
+
+  const std::string params = folder.write("params.csv", "0,0,0.25,0.25\n3,0,0.5,0.125\n");
+  REQUIRE(folder.run({"eval", model, "--plugin", plain, "--params", params, "-o", folder / "a.csv"}).status == 0);
+  REQUIRE(folder.run({"eval", model, "--scheme", "loop", "--params", params, "-o", folder / "b.csv"}).status == 0);
+  const auto ours = read_rows(folder / "a.csv"), loop = read_rows(folder / "b.csv");
+  REQUIRE(ours.size() == 3);
+  for (std::size_t row = 1; row < 3; ++row)
+    for (std::size_t column = 4; column < 10; ++column)
+      CHECK(std::stod(ours[row].at(column)) == Approx(std::stod(loop[row].at(column))).margin(1e-12));
+
+  const std::string rays = folder.write("rays.csv", "0,0.2,9,0,0,-1\n");
+  CHECK(folder.run({"query", model, "--plugin", plain, "--rays", rays, "-o", folder / "hits.csv"}).status == 0);
+  CHECK(read_rows(folder / "hits.csv").size() == 2);
+  CHECK(folder.run({"render", model, "--plugin", plain, "-o", folder / "out.exr", "--size", "16x16"}).status == 0);
+}
+
+TEST_CASE("scheme show and check name the rules of a plug-in", "[tools][plugin]") {
+  const Folder folder;
+  const std::string rules = "no crease rules: the cubic B-spline curve's are used";
+  const Outcome plain = folder.run({"scheme", "check", "--plugin", example_plugin("plain"), "--report", folder / "r"});
+  CAPTURE(plain.text);
+  CHECK(plain.status == 0);
+  CHECK(holds(plain.text, rules));
+  CHECK(std::filesystem::exists(folder / "r/plain.html"));
+
+  const Outcome toy = folder.run({"scheme", "check", "--plugin", example_plugin("toy")});
+  CAPTURE(toy.text);
+  CHECK(toy.status == 1);
+  CHECK(holds(toy.text, "a constant control net does not stay constant"));
+
+  for (const std::string name : {"butterfly", "kobbelt"}) {
+    const Outcome show = folder.run({"scheme", "show", "--plugin", example_plugin(name)});
+    CAPTURE(show.text);
+    CHECK(show.status == 0);
+    CHECK(holds(show.text, rules));
+    CHECK(holds(show.text, "found by refinement alone"));
+    CHECK(holds(show.text, name == "kobbelt" ? "face mask: what a corner" : "6 to 6       0.50000000"));
+  }
+}
+
+}  // namespace shaolin::test
