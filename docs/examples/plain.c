@@ -1,7 +1,6 @@
 /* Loop's scheme as a plug-in in plain C: the struct is written by hand, and the host derives limit masks. */
 #include <math.h>
 #include <shaolin/schemes/plugin_abi.h>
-#include <stdio.h>
 
 static int give(shaolin_weights* out, const double* weights, int count) {
   for (int i = 0; i < count && i < out->capacity; ++i) out->values[i] = weights[i];
@@ -9,10 +8,6 @@ static int give(shaolin_weights* out, const double* weights, int count) {
 }
 
 static int smooth_vertex(int n, shaolin_weights* out) {
-  if (n < 3) {
-    snprintf(out->error, (size_t)out->error_capacity, "valence %d is less than 3", n);
-    return -1;
-  }
   const double centre = 3.0 / 8 + cos(2 * acos(-1) / n) / 4;
   const double neighbour = (5.0 / 8 - centre * centre) / n;
   const double weights[] = {1 - n * neighbour, neighbour, 0};

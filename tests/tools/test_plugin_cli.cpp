@@ -112,7 +112,7 @@ TEST_CASE("scheme show and check name the rules of a plug-in", "[tools][plugin]"
     CHECK(show.status == 0);
     CHECK(holds(show.text, rules));
     CHECK(holds(show.text, "found by refinement alone"));
-    CHECK(holds(show.text, name == "kobbelt" ? "face mask: what a corner" : "6 to 6       0.50000000"));
+    CHECK(holds(show.text, name == "kobbelt" ? "face mask: what a corner" : "6 to 6     0.50000000"));
   }
 }
 
