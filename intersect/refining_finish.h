@@ -24,6 +24,8 @@ class RefiningFinish {
 
   /// True if a hit was found; then hit() is the nearest.
   bool solve(const Patch<S>& projected) {
+    const Box bound = limit_bound(projected);
+    grain_ = 0x1p-42 * (bound.upper - bound.lower).maxCoeff();
     visit(projected, Parameter::Zero(), 1);
     return found_;
   }
@@ -32,10 +34,8 @@ class RefiningFinish {
  private:
   using D = Domain<S::face_kind>;
 
-  /// As in ExactFinish: cells this small are points, sooner where a ray runs along the surface.
-  static constexpr double smallest = 0x1p-52;
+  /// As in ExactFinish: where a ray runs along the surface, cells become points sooner after this many.
   static constexpr int patience = 512;
-  static constexpr double smallest_out_of_patience = 0x1p-42;
 
   /// A cell's parameters p stand for origin + scale * p.
   void visit(const Patch<S>& cell, const Parameter& origin, double scale);
@@ -47,6 +47,11 @@ class RefiningFinish {
     const double across = std::max(box.upper.head<2>().maxCoeff(), -box.lower.head<2>().minCoeff());
     return across <= 2 * error_ && box.upper.z() - box.lower.z() <= 16 * error_;
   }
+  /// Halving further gives no other parameters. Near the corner (0, 0) there is no end to halving, and there must not
+  /// be: around an irregular vertex a cell shrinks by the subdominant eigenvalue, which for many faces is well above 1/2.
+  static bool is_one_parameter(const Parameter& origin, double scale) {
+    return origin + Parameter::Constant(0.5 * scale) == origin;
+  }
   void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
   double horizon() const {
     return best_.distance + (has_hit_ ? -std::exp2(std::min(4, cells_ / patience)) * error_ : error_);
@@ -54,6 +59,7 @@ class RefiningFinish {
 
   double error_;
   double near_;
+  double grain_ = 0;  ///< the size of a point for a finish out of patience: 2^-42 of the patch
   bool has_hit_;
   RayCounters& counters_;
   PatchHit best_;
@@ -74,8 +80,8 @@ void RefiningFinish<S>::visit(const Patch<S>& cell, const Parameter& origin, dou
   ++cells_;
   const Box bound = limit_bound(cell);
   if (is_outside(bound)) return;
-  const double size = std::abs(scale);
-  if (is_point(bound) || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience))
+  const bool is_grain = cells_ > patience && (bound.upper - bound.lower).maxCoeff() <= grain_;
+  if (is_point(bound) || is_grain || is_one_parameter(origin, scale))
     return accept(D::centre(), cell.points.front().z(), origin, scale);
 
   // Parameters at which the flat part may lie on the ray; all, if it stands edge-on to the ray.

@@ -23,7 +23,8 @@ def command(entry, compiler, target):
     for flag, folder in zip(words, words[1:]):
         if flag == "-isystem":
             flags += [flag, folder]
-    return [*compiler, *WARNINGS, *flags, "-c", entry["file"], "-o", str(target)]
+    language = ["-x", "c" if entry["file"].endswith(".c") else "c++"]
+    return [*compiler, *WARNINGS, *flags, *language, "-c", entry["file"], "-o", str(target)]
 
 
 def main():
