@@ -22,8 +22,9 @@ class RingStencils {
     const VertexMask mask = rules_.vertex(static_cast<int>(ring.spokes.size()), to, ring.cone);
     if (mask.face != 0) throw InputError("a scheme of radius 2 cannot weigh new face points in its vertex mask");
     Stencil stencil;
-    add_by_rule(stencil, to.parent, to.parent_crease, ring, mask, to.parent_weight);
-    if (to.parent_weight < 1) add_by_rule(stencil, to.child, to.child_crease, ring, mask, 1 - to.parent_weight);
+    const double share = to.parent_weight;  // in double: float would not give two shares that add up to one
+    add_by_rule(stencil, to.parent, to.parent_crease, ring, mask, share);
+    if (share < 1) add_by_rule(stencil, to.child, to.child_crease, ring, mask, 1 - share);
     return stencil;
   }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/models.h"
-#include "tools/validate/oracle.h"
+#include "tools/validate/opensubdiv_oracle.h"
 
 namespace shaolin::oracle_test {
 

@@ -22,7 +22,7 @@ double distance_from_line(const Vec3& p, const Vec3& origin, const Vec3& directi
 TEST_CASE("the dense check finds the points that rays are aimed at, or nearer ones", "[tools][oracle]") {
   for (const Model& model : feature_models()) {
     INFO(model.name);
-    const Oracle oracle(model.mesh, model.scheme);
+    const OpenSubdivOracle oracle(model.mesh, model.scheme);
     const DenseCheck dense(oracle, 3);
     std::mt19937 random(8);
     int exact = 0;
@@ -48,7 +48,7 @@ TEST_CASE("the dense check finds the points that rays are aimed at, or nearer on
 }
 
 TEST_CASE("the dense check takes rays past the surface for misses", "[tools][oracle]") {
-  const Oracle oracle(shaken(cube(), 0.13), "catmark");
+  const OpenSubdivOracle oracle(shaken(cube(), 0.13), "catmark");
   const DenseCheck dense(oracle, 3);
   CHECK_FALSE(dense.closest({5, 5, 5}, {1, 0, 0}, 0, infinity));
   CHECK_FALSE(dense.closest({0, 0, 5}, {0, 0, 1}, 0, infinity));
@@ -58,7 +58,7 @@ TEST_CASE("the dense check takes rays past the surface for misses", "[tools][ora
 }
 
 TEST_CASE("the dense check tells grazing from transversal hits", "[tools][oracle]") {
-  const Oracle oracle(shaken(cube(), 0.13), "catmark");
+  const OpenSubdivOracle oracle(shaken(cube(), 0.13), "catmark");
   const LimitSample sample = *oracle.evaluate({1, 0, 0.5, 0.5});
   const OracleHit hit{1, {1, 0, 0.5, 0.5}, sample};
   CHECK(is_transversal(hit, 7 * sample.normal));

@@ -14,7 +14,7 @@
 #include "schemes/obj.h"
 #include "tests/catch.h"
 #include "tests/tools/oracle_models.h"
-#include "tools/validate/oracle.h"
+#include "tools/validate/opensubdiv_oracle.h"
 
 namespace {
 
@@ -126,7 +126,7 @@ void brute_force(const Model& model, int levels,
 }
 
 double worst_against_brute_force(const Model& model, int levels, const OracleOptions& options) {
-  const Oracle oracle(model.mesh, model.scheme, options);
+  const OpenSubdivOracle oracle(model.mesh, model.scheme, options);
   double worst = 0;
   brute_force(model, levels, [&](const SurfaceParameter& at, const Vec3& expected) {
     if (const auto sample = oracle.evaluate(at)) worst = std::max(worst, (sample->position - expected).norm());
@@ -159,7 +159,7 @@ TEST_CASE("close to irregular corners the oracle agrees with nine levels of the 
   for (const Model& model : {Model{"catmark tetrahedron", "catmark", shaken(tetrahedron(), 0.13)},
                              Model{"loop tetrahedron", "loop", shaken(tetrahedron(), 0.13)}}) {
     INFO(model.name);
-    const Oracle oracle(model.mesh, model.scheme);
+    const OpenSubdivOracle oracle(model.mesh, model.scheme);
     double worst = 0;
     int compared = 0;
     brute_force(model, 9, [&](const SurfaceParameter& at, const Vec3& expected) {
@@ -175,7 +175,7 @@ TEST_CASE("close to irregular corners the oracle agrees with nine levels of the 
 TEST_CASE("the oracle is continuous across the zone that it refines", "[tools][oracle]") {
   for (const Model& model : feature_models()) {
     INFO(model.name);
-    const Oracle refines(model.mesh, model.scheme),
+    const OpenSubdivOracle refines(model.mesh, model.scheme),
         evaluates_bfr(model.mesh, model.scheme, {.zone = std::ldexp(1, -10)});
     std::mt19937 random(3);
     for (int i = 0; i < 200; ++i) {
@@ -195,7 +195,7 @@ TEST_CASE("the oracle is continuous across the zone that it refines", "[tools][o
 TEST_CASE("the oracle's derivatives are those of its positions", "[tools][oracle]") {
   for (const Model& model : feature_models()) {
     INFO(model.name);
-    const Oracle oracle(model.mesh, model.scheme);
+    const OpenSubdivOracle oracle(model.mesh, model.scheme);
     std::mt19937 random(4);
     for (int i = 0; i < 60; ++i) {
       SurfaceParameter at = random_parameter(oracle, random);
@@ -226,7 +226,7 @@ TEST_CASE("the oracle's derivatives are those of its positions", "[tools][oracle
 TEST_CASE("at a corner the oracle gives the limit of the points around it", "[tools][oracle][sweep]") {
   for (const Model& model : feature_models()) {
     INFO(model.name);
-    const Oracle oracle(model.mesh, model.scheme);
+    const OpenSubdivOracle oracle(model.mesh, model.scheme);
     for (int f = 0; f < oracle.face_count(); ++f) {
       for (int sub = 0; oracle.has_limit(f) && sub < oracle.sub_count(f); ++sub) {
         const SurfaceParameter corner{f, sub, 0, 0}, near{f, sub, std::ldexp(0.7, -110), std::ldexp(0.2, -110)};
@@ -241,7 +241,7 @@ TEST_CASE("the oracle's normals at corners are limits where there are any", "[to
   int with_normal = 0;
   for (const Model& model : feature_models()) {
     INFO(model.name);
-    const Oracle oracle(model.mesh, model.scheme);
+    const OpenSubdivOracle oracle(model.mesh, model.scheme);
     for (int f = 0; f < oracle.face_count(); ++f) {
       if (!oracle.has_limit(f)) continue;
       const LimitSample limit = *oracle.evaluate({f, 0, 0, 0});
@@ -266,7 +266,7 @@ TEST_CASE("the oracle's normals at corners are limits where there are any", "[to
 
 TEST_CASE("the oracle's parameters on n-gons are Bfr's sub-faces", "[tools][oracle]") {
   const ControlMesh mesh = with_edges(shaken(prism(5), 0.13), {{0, 1, 10}, {1, 3, 1.7f}});
-  const Oracle oracle(mesh, "catmark");
+  const OpenSubdivOracle oracle(mesh, "catmark");
   const auto refiner = osd_refiner(mesh, "catmark");
   Bfr::SurfaceFactory::Options options;
   options.SetApproxLevelSmooth(10).SetApproxLevelSharp(10);
@@ -301,7 +301,7 @@ TEST_CASE("high valence costs the oracle moderate time and no accuracy", "[tools
     INFO(scheme);
     const Model model{scheme, scheme, shaken(poles("loop", 360), 0.13)};
     CHECK(worst_against_brute_force(model, 3, {}) <= 1e-12);
-    const Oracle oracle(model.mesh, scheme);
+    const OpenSubdivOracle oracle(model.mesh, scheme);
     // The pole is corner 0; along an edge the surface is the limit of what is between.
     const auto at = [](double d) { return SurfaceParameter{0, 0, d / 3, d}; };
     const LimitSample pole = *oracle.evaluate(at(0));
@@ -314,7 +314,7 @@ TEST_CASE("high valence costs the oracle moderate time and no accuracy", "[tools
 TEST_CASE("faces without a limit surface give no sample", "[tools][oracle]") {
   ControlMesh open = with_boundary(shaken(sheet("catmark", 4, 4), 0.13), BoundaryInterpolation::none);
   open.holes = {5};
-  const Oracle oracle(open, "catmark");
+  const OpenSubdivOracle oracle(open, "catmark");
   int with_limit = 0;
   for (int f = 0; f < oracle.face_count(); ++f) {
     CHECK(oracle.evaluate({f, 0, 0.5, 0.5}).has_value() == oracle.has_limit(f));
@@ -338,7 +338,7 @@ int levels_for(const ControlMesh& mesh) {
 }
 
 void compare_both_ways(const Model& model) {
-  const Oracle bfr(model.mesh, model.scheme), refined(model.mesh, model.scheme, {.zone = 0.3, .heavy_valence = 6});
+  const OpenSubdivOracle bfr(model.mesh, model.scheme), refined(model.mesh, model.scheme, {.zone = 0.3, .heavy_valence = 6});
   std::mt19937 random(6);
   for (int i = 0; i < 300; ++i) {
     SurfaceParameter at = random_parameter(bfr, random);

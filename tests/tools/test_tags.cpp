@@ -4,7 +4,7 @@
 #include "tests/catch.h"
 #include "tests/models.h"
 #include "tests/random.h"
-#include "tools/validate/oracle.h"
+#include "tools/validate/opensubdiv_oracle.h"
 
 namespace shaolin {
 
@@ -13,7 +13,7 @@ namespace {
 /// The largest distance from OpenSubdiv's surface over random places, in diagonals; half of them crowd to corners.
 double worst_difference(const ControlMesh& mesh, const std::string& scheme, std::uint64_t seed) {
   const auto surface = make_limit_surface(mesh, scheme);
-  const Oracle oracle(mesh, scheme);
+  const OpenSubdivOracle oracle(mesh, scheme);
   Random random(seed);
   double worst = 0;
   int compared = 0;

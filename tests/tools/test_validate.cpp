@@ -28,11 +28,11 @@ struct Subject {
     return check_evaluations(evaluator, oracle, sample_parameters(oracle, count, 7));
   }
   RayReport rays(std::size_t count = 300) const {
-    return check_rays(intersector, oracle, dense, sample_rays(oracle, count, 7));
+    return check_rays(intersector, oracle, &dense, sample_rays(oracle, count, 7));
   }
 
   ControlMesh mesh;
-  Oracle oracle;
+  OpenSubdivOracle oracle;
   Scene scene;
   DenseCheck dense;
   Evaluator evaluator;      ///< to be replaced by a faulty one
@@ -297,7 +297,7 @@ TEST_CASE("sampled parameters lie in the domain and crowd towards corners", "[to
   for (const std::string model : {"torus.obj", "loop_torus.obj"}) {
     INFO(model);
     const ControlMesh mesh = read_obj(data_file(model));
-    const Oracle oracle(mesh, default_scheme(mesh));
+    const OpenSubdivOracle oracle(mesh, default_scheme(mesh));
     const auto parameters = sample_parameters(oracle, 8000, 5);
     REQUIRE(parameters.size() == 8000);
     std::size_t near = 0, at_corner = 0, hairs = 0;
@@ -320,7 +320,7 @@ TEST_CASE("sampled parameters lie in the domain and crowd towards corners", "[to
 
 TEST_CASE("sampled rays are of the kinds that they are named", "[tools][validate]") {
   const ControlMesh mesh = read_obj(data_file("torus.obj"));
-  const Oracle oracle(mesh, "catmark");
+  const OpenSubdivOracle oracle(mesh, "catmark");
   const auto rays = sample_rays(oracle, 3000, 5);
   REQUIRE(rays.size() == 3300);
   std::array<std::size_t, 4> counts{};

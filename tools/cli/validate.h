@@ -1,9 +1,10 @@
 #pragma once
-/// `shaolin validate`: the model's surface and hits, held against OpenSubdiv.
+/// `shaolin validate`: the model's surface and hits, held against an oracle.
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "tools/cli/command.h"
 #include "tools/cli/model.h"
@@ -12,8 +13,8 @@ namespace shaolin {
 
 struct ValidateOptions {
   ModelOptions model;
-  std::size_t rays = 30000;         ///< --rays; a tenth of that in addition is aimed at edges and vertices
-  std::size_t evaluations = 10000;  ///< --evaluations
+  std::optional<std::size_t> rays;         ///< --rays; a tenth of that in addition is aimed at edges and vertices
+  std::optional<std::size_t> evaluations;  ///< --evaluations
   std::uint64_t seed = 1;           ///< --seed
   std::filesystem::path report;     ///< --report; empty: none
   int threads = 0;                  ///< --threads; 0: all

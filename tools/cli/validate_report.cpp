@@ -96,6 +96,7 @@ Json to_json(const Validation& validation) {
   }
   return {{"model", validation.model},
           {"scheme", validation.scheme},
+          {"oracle", validation.oracle},
           {"seed", validation.seed},
           {"diagonal", validation.diagonal},
           {"dense_level", validation.dense_level},
@@ -151,7 +152,10 @@ void print_ray_line(const char* name, const RayFigures& f) {
 void print_rays(const Validation& validation) {
   const RayFigures all = validation.rays.total();
   if (all.rays == 0) return;
-  std::printf("\nRays: %zu, against a grid of %d steps a side\n", all.rays, 1 << validation.dense_level);
+  if (validation.dense_level > 0)
+    std::printf("\nRays: %zu, against a grid of %d steps a side\n", all.rays, 1 << validation.dense_level);
+  else
+    std::printf("\nRays: %zu; hits are missed only where rays were aimed at the surface\n", all.rays);
   std::printf("  %-12s %7s %7s %5s %6s %8s %8s %9s %8s   %8s   %8s %8s\n", "", "rays", "hits", "lost", "ghosts",
               "normals", "occluded", "undecided", "seen", "on ray", "on surf.", "normal");
   for (std::size_t i = 0; i < ray_kinds.size(); ++i) {
@@ -184,8 +188,8 @@ void print_disagreements(const char* rows, const std::vector<Disagreement>& disa
 }  // namespace
 
 void print_validation(const Validation& validation) {
-  std::printf("model     %s\nscheme    %s\nseed      %llu\n", validation.model.c_str(), validation.scheme.c_str(),
-              static_cast<unsigned long long>(validation.seed));
+  std::printf("model     %s\nscheme    %s\noracle    %s\nseed      %llu\n", validation.model.c_str(),
+              validation.scheme.c_str(), validation.oracle.c_str(), static_cast<unsigned long long>(validation.seed));
   print_evaluations(validation.evaluations);
   print_rays(validation);
   print_disagreements("eval --params", validation.evaluations.disagreements);

@@ -12,9 +12,10 @@ namespace shaolin {
 
 struct Validation {
   std::string model, scheme;
+  std::string oracle;  ///< what the surface was held against
   std::uint64_t seed = 1;
   double diagonal = 0;  ///< of the control mesh's bounding box
-  int dense_level = 0;  ///< the dense check's grid has 2^level steps a side
+  int dense_level = 0;  ///< the dense check's grid has 2^level steps a side; 0: there is none
   double seconds = 0;
   EvaluationReport evaluations{};
   RayReport rays{};
@@ -27,7 +28,7 @@ void print_validation(const Validation& validation);
 
 /// Writes a JSON object:
 ///
-///     model, scheme, seed, diagonal, dense_level, seconds, passed
+///     model, scheme, oracle, seed, diagonal, dense_level, seconds, passed
 ///     evaluations    { count, faces, faces_without_limit, passed, position, normal, undetermined_normal, derivative }:
 ///                    the last four are { count, median, p99, max, worst: { face, sub, u, v } }
 ///     rays           { camera, incoherent, grazing, aimed, all }: every field of RayFigures

@@ -93,7 +93,7 @@ void Check::parameter(const SurfaceParameter& at) {
   }
   position(at, *ours, *theirs);
   normal(at, *ours, *theirs);
-  derivatives(at, *ours, *theirs);
+  if (oracle_.has_derivatives()) derivatives(at, *ours, *theirs);
 }
 
 void Check::position(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {

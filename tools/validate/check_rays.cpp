@@ -43,7 +43,7 @@ std::string text(const Hit& hit) {
 
 class Check {
  public:
-  Check(const Oracle& oracle, const DenseCheck& dense) : oracle_(oracle), dense_(dense) {}
+  Check(const Oracle& oracle, const DenseCheck* dense) : oracle_(oracle), dense_(dense) {}
 
   void ray(const ProbeRay& probe, const Answer& answer);
   const RayReport& report() const { return report_; }
@@ -60,14 +60,17 @@ class Check {
 
   void hit(const Context& context, const Hit& hit);
   void normal(const Context& context, const Hit& hit, const LimitSample& expected);
-  void nearer(const Context& context, const std::optional<Hit>& hit, const std::optional<double>& target);
+  void nearer(const Context& context, const std::optional<Hit>& hit, const ProbeRay& probe);
+  std::optional<OracleHit> closest(const Ray& ray, double tmin, double tmax) const {
+    return dense_ ? dense_->closest(ray.origin, ray.direction, tmin, tmax) : std::nullopt;
+  }
   bool certain(const Ray& ray, double t) const;
   void disagree(const char* what, const Ray& ray, std::string detail, double error, double allowed) {
     report_.disagreements.push_back({what, {}, ray, std::move(detail), error, allowed});
   }
 
   const Oracle& oracle_;
-  const DenseCheck& dense_;
+  const DenseCheck* dense_;
   RayReport report_;
 };
 
@@ -82,7 +85,7 @@ void Check::ray(const ProbeRay& probe, const Answer& answer) {
              answer.hit ? "false, intersect has " + text(*answer.hit) : "true, intersect has no hit", 1, 0);
   }
   if (answer.hit) hit(context, *answer.hit);
-  nearer(context, answer.hit, probe.target);
+  nearer(context, answer.hit, probe);
 }
 
 /// The reported place, by the oracle, must be on the ray where the hit says.
@@ -108,7 +111,7 @@ void Check::hit(const Context& context, const Hit& hit) {
   }
   normal(context, hit, *expected);
   const double window = context.step(along, oracle_.diagonal());
-  context.figures.seen += dense_.closest(ray.origin, ray.direction, hit.t - window, hit.t + window).has_value();
+  context.figures.seen += closest(ray, hit.t - window, hit.t + window).has_value();
 }
 
 void Check::normal(const Context& context, const Hit& hit, const LimitSample& expected) {
@@ -124,17 +127,17 @@ void Check::normal(const Context& context, const Hit& hit, const LimitSample& ex
 }
 
 /// Looks for a hit before ours, or for any where we have none.
-void Check::nearer(const Context& context, const std::optional<Hit>& hit, const std::optional<double>& target) {
+void Check::nearer(const Context& context, const std::optional<Hit>& hit, const ProbeRay& probe) {
   const Ray& ray = context.ray;
   const double slack = context.step(same_hit, oracle_.diagonal());
   const double end = hit ? hit->t - slack : ray.tmax;
   std::optional<double> nearer;
-  if (const auto seen = dense_.closest(ray.origin, ray.direction, ray.tmin, end)) nearer = seen->t;
-  if (target && *target < end && (!nearer || *target < *nearer)) nearer = target;
+  if (const auto seen = closest(ray, ray.tmin, end)) nearer = seen->t;
+  if (probe.target && *probe.target < end && (!nearer || *probe.target < *nearer)) nearer = probe.target;
   if (!nearer) return;
   // At an end of the interval, rounding decides.
   const bool inside = *nearer >= ray.tmin + slack && *nearer <= ray.tmax - slack;
-  if (!inside || !certain(ray, *nearer)) {
+  if (!inside || !(dense_ ? certain(ray, *nearer) : probe.crosses_at_target)) {
     ++context.figures.undecided;
     return;
   }
@@ -149,7 +152,7 @@ bool Check::certain(const Ray& ray, double t) const {
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
     const Vec3 moved = ray.origin + sideways * oracle_.diagonal() * (std::cos(angle) * side + std::sin(angle) * other);
-    if (!dense_.closest(moved, ray.direction, t - window, t + window)) return false;
+    if (!closest({moved, ray.direction}, t - window, t + window)) return false;
   }
   return true;
 }
@@ -181,7 +184,7 @@ Intersector Intersector::of(const Scene& scene) {
   return {[&](const Ray& ray) { return scene.intersect(ray); }, [&](const Ray& ray) { return scene.occluded(ray); }};
 }
 
-RayReport check_rays(const Intersector& ours, const Oracle& oracle, const DenseCheck& dense,
+RayReport check_rays(const Intersector& ours, const Oracle& oracle, const DenseCheck* dense,
                      std::span<const ProbeRay> rays) {
   const std::vector<Answer> answers = trace(ours, rays);
   Check check(oracle, dense);

@@ -1,56 +1,39 @@
 #pragma once
-/// The limit surface according to OpenSubdiv, made exact where Bfr alone is not. It shares no code with the product's
-/// own evaluation.
-#include <memory>
+/// A limit surface found by other means than the product's own evaluation: what surfaces are held against.
 #include <optional>
-#include <string>
 
-#include "schemes/control_mesh.h"
 #include "schemes/limit_sample.h"
+#include "tools/validate/root_mesh.h"
 
 namespace shaolin {
 
-/// How the oracle decides which of its two ways to take. Both give the same surface; the default is for use,
-/// other values are for testing one way against the other.
-struct OracleOptions {
-  /// Distances (in a quad's or triangle's parameter square) from an irregular corner up to which the neighbourhood is
-  /// refined before Bfr evaluates it. Bfr's end-caps begin at 2^-10, so this must not be smaller; at most 1.
-  double zone = 1.0 / 256;
-  /// Vertices of more faces are kept out of Bfr's patches altogether: its tables grow with the valence's square.
-  int heavy_valence = 40;
-};
-
-/// Evaluation of Bfr's surface in double at approximation levels (10, 10). Near an irregular corner the 3-ring of the
-/// corner is refined by Far until the parameter lies in a piece that does not touch the corner, and Bfr evaluates that
-/// piece. Exactly at an irregular corner the position is the limit of Far's refinement.
-/// A mesh that has faces which are not the scheme's own kind is refined once as a whole first, so that a corner of an
-/// n-gon is a quad. Not for concurrent use: evaluation fills caches.
+/// Not for concurrent use: evaluation may fill caches.
 class Oracle {
  public:
-  /// `scheme` is "loop", "catmark" or "bilinear". Throws InputError for another name, for Loop over other faces than
-  /// triangles and for meshes that OpenSubdiv declines. O(mesh size).
-  Oracle(const ControlMesh& mesh, const std::string& scheme, const OracleOptions& options = {});
-  ~Oracle();
-  Oracle(Oracle&&) noexcept;
+  virtual ~Oracle() = default;
 
-  int face_count() const;
-  bool triangular() const;
+  int face_count() const { return static_cast<int>(root_.has_limit.size()); }
+  bool triangular() const { return root_.rules.triangular(); }
   /// False for holes and faces at a boundary that is not interpolated: OpenSubdiv's own answer.
-  bool has_limit(int face) const;
-  /// 1, or the number of corners of an n-gon under Catmull-Clark.
-  int sub_count(int face) const;
+  bool has_limit(int face) const { return root_.has_limit.at(static_cast<std::size_t>(face)); }
+  /// 1, or the number of corners of an n-gon of the quad split.
+  int sub_count(int face) const { return root_.sub_counts.at(static_cast<std::size_t>(face)); }
   /// The diagonal of the control points' bounding box.
-  double diagonal() const;
+  double diagonal() const { return root_.diagonal; }
+  /// True if the surface goes on to all sides of a point: inside a face, or between faces that all have a limit. A ray
+  /// that crosses it there cannot miss.
+  bool is_inside(const SurfaceParameter& at) const { return root_.is_inside(at); }
 
-  /// Empty if the face has no limit surface. u and v are clamped to [0, 1]; so is u + v on triangles. Exactly at an
-  /// irregular corner the derivatives are empty. The normal is zero where du and dv do not span a plane and at corners
-  /// that have no tangent plane, see CornerLimit. Throws std::out_of_range for face or sub.
-  /// Amortised O(1) away from irregular corners, O(valence x log2(1 / distance)) for the first query near one.
-  std::optional<LimitSample> evaluate(const SurfaceParameter& at) const;
+  /// True if samples carry derivatives (where the surface has them).
+  virtual bool has_derivatives() const = 0;
+  /// Empty if the face has no limit surface. u and v are clamped to [0, 1]; so is u + v on triangles. The normal is zero
+  /// where the oracle has none to tell. Throws std::out_of_range for face or sub.
+  virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
 
- private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+ protected:
+  explicit Oracle(RootMesh root) : root_(std::move(root)) {}
+
+  RootMesh root_;
 };
 
 }  // namespace shaolin

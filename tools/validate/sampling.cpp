@@ -107,25 +107,28 @@ ProbeRay incoherent_ray(const Surroundings& model, Random& random) {
 }
 
 /// The origin lies `distance` before the point, so that the ray meets it at t = 1.
-ProbeRay ray_through(RayKind kind, const Vec3& point, const Vec3& direction, double distance) {
-  return {kind, {point - distance * direction, distance * direction}, 1.0};
+ProbeRay ray_through(RayKind kind, const Oracle& oracle, const SurfaceParameter& at, const LimitSample& sample,
+                     const Vec3& direction, double distance) {
+  const bool crosses = oracle.is_inside(at) && std::abs(direction.dot(sample.normal)) > 1e-2;
+  return {kind, {sample.position - distance * direction, distance * direction}, 1.0, crosses};
 }
 
 ProbeRay grazing_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
-  const LimitSample sample = *oracle.evaluate(random_parameter(piece, oracle.triangular(), random));
+  const SurfaceParameter at = random_parameter(piece, oracle.triangular(), random);
+  const LimitSample sample = *oracle.evaluate(at);
   const Vec3 tangent = sample.normal.cross(random.direction()).normalized();
   const double tilt = random.log_between(1e-4, 1e-1) * (random.one_in(2) ? 1 : -1);
   const Vec3 direction = std::cos(tilt) * tangent + std::sin(tilt) * sample.normal;
   // No tangent plane: any direction will do.
   const Vec3 usable = direction.norm() > 0.5 ? direction.normalized() : random.direction();
-  return ray_through(RayKind::grazing, sample.position, usable, random.log_between(1e-2, 3) * model.diagonal);
+  return ray_through(RayKind::grazing, oracle, at, sample, usable, random.log_between(1e-2, 3) * model.diagonal);
 }
 
 ProbeRay aimed_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
   const bool at_corner = random.one_in(2);
   const double side = oracle.triangular() && random.one_in(2) ? 1 : 0;
   const SurfaceParameter at = near_corner(piece, oracle.triangular(), at_corner ? 0 : random.unit(), side, random);
-  return ray_through(RayKind::aimed, oracle.evaluate(at)->position, random.direction(),
+  return ray_through(RayKind::aimed, oracle, at, *oracle.evaluate(at), random.direction(),
                      random.log_between(1e-2, 3) * model.diagonal);
 }
 

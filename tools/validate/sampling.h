@@ -30,7 +30,8 @@ const char* name_of(RayKind kind);
 struct ProbeRay {
   RayKind kind;
   Ray ray;
-  std::optional<double> target;  ///< where the ray meets the surface by construction; a nearer hit may exist
+  std::optional<double> target;    ///< where the ray meets the surface by construction; a nearer hit may exist
+  bool crosses_at_target = false;  ///< there it goes through the surface, at more than 1e-2 rad, and cannot miss
 };
 
 /// `count` rays, in thirds camera, incoherent and grazing, and a tenth of that in addition aimed. Directions have
