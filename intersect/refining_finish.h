@@ -52,6 +52,7 @@ class RefiningFinish {
   static bool is_one_parameter(const Parameter& origin, double scale) {
     return origin + Parameter::Constant(0.5 * scale) == origin;
   }
+  static Parameter nearest_in_space(const Eigen::Matrix2d& jacobian, const Eigen::Vector2d& origin);
   void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
   double horizon() const {
     return best_.distance + (has_hit_ ? -std::exp2(std::min(4, cells_ / patience)) * error_ : error_);
@@ -72,6 +73,24 @@ void RefiningFinish<S>::accept(const Parameter& at, double distance, const Param
   if (distance < near_ - error_ || distance > horizon()) return;
   best_ = {origin + scale * at, std::max(distance, near_)};
   found_ = has_hit_ = true;
+}
+
+/// The parameter on the domain's sides at which |origin + jacobian p| is least. (Least in p would not do: where a ray
+/// grazes the surface, a small step in one parameter alone leads far away from it.)
+template <Scheme S>
+Parameter RefiningFinish<S>::nearest_in_space(const Eigen::Matrix2d& jacobian, const Eigen::Vector2d& origin) {
+  Parameter nearest = Parameter::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < D::corner_count; ++i) {
+    const auto& corner = D::corners[i];
+    const auto& next = D::corners[(i + 1) % D::corner_count];
+    const Parameter from(corner[0], corner[1]), along(next[0] - corner[0], next[1] - corner[1]);
+    const Eigen::Vector2d start = origin + jacobian * from, step = jacobian * along;
+    const Parameter at = from + std::clamp(-start.dot(step) / step.squaredNorm(), 0.0, 1.0) * along;
+    const double distance = (origin + jacobian * at).norm();
+    if (distance < least) least = distance, nearest = at;
+  }
+  return nearest;
 }
 
 template <Scheme S>
@@ -99,9 +118,10 @@ void RefiningFinish<S>::visit(const Patch<S>& cell, const Parameter& origin, dou
       low = centre - reach;
       high = centre + reach;
       if (low.x() > 1 || low.y() > 1 || high.x() < 0 || high.y() < 0) return;
-      if (half.maxCoeff() <= 0.5 * error_) {
-        const Parameter at = D::nearest(centre);
-        if (((at - centre).cwiseAbs() - reach).maxCoeff() > 0) return;
+      if (half.maxCoeff() <= 0.5 * error_ && rest.upper.z() - rest.lower.z() <= error_) {
+        const Parameter at = D::contains(centre) ? centre : nearest_in_space(jacobian, middle);
+        // A point of the ray's band may be as far off as the remainder on top; beyond, the ray passes the cell by.
+        if ((jacobian * at + middle).cwiseAbs().maxCoeff() > 2 * error_) return;
         const double distance = part->at(at).z() + 0.5 * (rest.lower.z() + rest.upper.z());
         return accept(at, distance, origin, scale);
       }

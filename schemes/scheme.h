@@ -88,9 +88,9 @@ concept RingMasks = requires(const S scheme, int n) {
 /// - `smooth_vertex(n)`: the mask at a smooth interior vertex of valence n.
 /// - `smooth_edge()`, or else `edge_end(n, other)`: the smooth edge point. `edge_end` is what the end of valence n
 ///   gives if the other end has valence `other`, counted from the edge itself; the point is the sum over both ends.
-///   Both masks are asked for n, other >= 3 (an edge beside a vertex of valence 2 is cut in its middle). Where a ring
-///   ends at a crease or a boundary it is continued by mirror images (see closed_ring.h): a crease of k faces counts as
-///   valence 2 k.
+///   Vertex masks are asked for n >= 2, `edge_end` for n, other >= 3 (an edge beside a vertex of valence 2 is cut in
+///   its middle). Where a ring ends at a crease or a boundary it is continued by mirror images (see closed_ring.h): a
+///   crease of k faces counts as valence 2 k.
 ///
 /// All else is optional:
 ///
@@ -186,8 +186,10 @@ struct Rules {
   int radius() const { return radius_of(scheme); }
   CreaseMask crease() const { return crease_of(scheme); }
 
-  /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's.
+  /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's. No scheme is asked for it where
+  /// neither rule of the transition has a use for it: a corner may have any number of neighbours.
   VertexMask vertex(int n, const VertexTransition& to, bool cone) const {
+    if (!is_smooth_rule(to.parent) && !is_smooth_rule(to.child)) return {};
     if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return dart_vertex_of(scheme, n);
     return cone ? cone_vertex_of(scheme, n) : scheme.smooth_vertex(n);
   }

@@ -12,8 +12,6 @@ std::array<int, 2> crease_ends(std::span<const float> edge_sharpness) {
   return {static_cast<int>(first - edge_sharpness.begin()), static_cast<int>(second - edge_sharpness.begin())};
 }
 
-bool is_smooth_rule(VertexRule rule) { return rule == VertexRule::smooth || rule == VertexRule::dart; }
-
 }  // namespace
 
 VertexRule vertex_rule(float vertex_sharpness, std::span<const float> edge_sharpness) {

@@ -52,6 +52,9 @@ class SemiSharpEdges {
   int count_ = 0;
 };
 
+/// True for the rules that read the whole ring.
+inline bool is_smooth_rule(VertexRule rule) { return rule == VertexRule::smooth || rule == VertexRule::dart; }
+
 /// The rule at a vertex of the given sharpness among its edges: a sharp vertex is a corner; otherwise no sharp edge is
 /// smooth, one a dart, two a crease, more a corner.
 VertexRule vertex_rule(float vertex_sharpness, std::span<const float> edge_sharpness);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/validate/corner_limit.h"
+
 namespace shaolin {
 namespace {
 
@@ -45,9 +47,6 @@ class MaskStep {
     int valence() const { return closed ? faces() : 2 * faces(); }
   };
 
-  bool is_fan(int vertex) const {
-    return !coarse_.vertex_non_manifold[at(vertex)] && coarse_.vertex_faces.count(vertex) > 0;
-  }
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Vec3& point(int vertex) const { return coarse_.points[at(vertex)]; }
   int other_end(int edge, int vertex) const {
@@ -62,7 +61,7 @@ class MaskStep {
   Tags child_tags(int vertex) const;
   Vec3 mean_of(int face) const;
   Vec3 diagonal(int face, int corner) const;
-  Fan fan(int vertex, int place) const;
+  Fan fan(int face, int corner) const;
   Vec3 by_ring_mask(const Fan& fan, const RingMask& mask) const;
 
   Vec3 face_point(int face) const;
@@ -129,34 +128,22 @@ Vec3 MaskStep::diagonal(int face, int corner) const {
          point(vertices[at(corner)]);
 }
 
-/// `place` is that of an edge around the vertex: it, or the face that it leads, is in the fan.
-MaskStep::Fan MaskStep::fan(int vertex, int place) const {
-  const auto edges = coarse_.vertex_edges[vertex];
-  const auto faces = coarse_.vertex_faces[vertex];
-  const auto corners = coarse_.vertex_face_slots[vertex];
-  const int n = static_cast<int>(faces.size()), all = static_cast<int>(edges.size());
-  const auto is_barrier = [&](int i) { return coarse_.is_crease(edges[at(i)]); };
-  int barriers = 0;
-  for (int i = 0; i < all; ++i) barriers += is_barrier(i);
-  const bool boundary = all > n;
-  Fan fan{vertex, !boundary && barriers < 2, {}, {}, 0};
-  int first = place, count = n;
-  if (!fan.closed) {
-    const auto turned = [&](int i) { return boundary ? i : (i + all) % all; };
-    // A crease that bounds two fans is the first edge of the one after it, but for a boundary's last.
-    if (boundary && first == all - 1) --first;
-    while (!is_barrier(turned(first))) --first;
-    count = 1;
-    while (!is_barrier(turned(first + count))) ++count;
-    fan.from = place - first;
-    first = turned(first);
+/// Masks count from the edge that leaves the face's corner.
+MaskStep::Fan MaskStep::fan(int face, int corner) const {
+  Sector around = sector_around(coarse_, face, corner, true);
+  Sector cut = sector_around(coarse_, face, corner, false);
+  int creases = 0;
+  for (int i = 0; i < around.size(); ++i)
+    creases += coarse_.is_crease(coarse_.next_edge(around.faces[at(i)], around.corners[at(i)]));
+  const Sector& sector = around.closed && creases < 2 ? around : cut;
+  Fan fan{coarse_.face_vertices[face][at(corner)], sector.closed, {}, {}, 0};
+  for (int i = 0; i < sector.size(); ++i) {
+    const int f = sector.faces[at(i)], c = sector.corners[at(i)];
+    if (f == face && c == corner) fan.from = i;
+    fan.ends.push_back(coarse_.next_vertex(f, c));
+    fan.diagonals.push_back(diagonal(f, c));
   }
-  for (int k = 0; k < count; ++k) {
-    const int i = (first + k) % all;
-    fan.ends.push_back(other_end(edges[at(i)], vertex));
-    fan.diagonals.push_back(diagonal(faces[at(i)], corners[at(i)]));
-  }
-  if (!fan.closed) fan.ends.push_back(other_end(edges[at((first + count) % all)], vertex));
+  if (!fan.closed) fan.ends.push_back(coarse_.previous_vertex(sector.faces.back(), sector.corners.back()));
   return fan;
 }
 
@@ -196,14 +183,9 @@ Vec3 MaskStep::face_point(int face) const {
   Vec3 sum = Vec3::Zero();
   for (int c = 0; c < 4; ++c) {
     const int vertex = coarse_.face_vertices[face][at(c)];
-    Vec3 share = point(vertex) / 4;
-    if (is_fan(vertex)) {
-      const auto faces = coarse_.vertex_faces[vertex];
-      const int place = static_cast<int>(std::find(faces.begin(), faces.end(), face) - faces.begin());
-      const Fan around = fan(vertex, place);
-      if (around.valence() >= 3) share = by_ring_mask(around, masks_.face_corner(around.valence()));
-    }
-    sum += share;
+    const Fan around = fan(face, c);
+    const bool has_mask = around.valence() >= 3;
+    sum += has_mask ? by_ring_mask(around, masks_.face_corner(around.valence())) : Vec3(point(vertex) / 4);
   }
   return sum;
 }
@@ -220,12 +202,9 @@ Vec3 MaskStep::smooth_edge_point(int edge) const {
     const EdgeMask mask = masks_.smooth_edge();
     return mask.end * 2 * middle + mask.side * sides;
   }
-  if (!is_fan(ends[0]) || !is_fan(ends[1])) return middle;
-  std::vector<Fan> fans;
-  for (const int vertex : ends) {
-    const auto edges = coarse_.vertex_edges[vertex];
-    fans.push_back(fan(vertex, static_cast<int>(std::find(edges.begin(), edges.end(), edge) - edges.begin())));
-  }
+  std::vector<Fan> fans;  // of either end, each seen from the face that the edge leads there
+  for (int i = 0; i < 2; ++i)
+    fans.push_back(fan(coarse_.edge_faces[edge][at(i)], coarse_.edge_face_slots[edge][at(i)]));
   if (std::min(fans[0].valence(), fans[1].valence()) < 3) return middle;
   return by_ring_mask(fans[0], masks_.edge_end(fans[0].valence(), fans[1].valence())) +
          by_ring_mask(fans[1], masks_.edge_end(fans[1].valence(), fans[0].valence()));
@@ -262,7 +241,7 @@ Vec3 MaskStep::vertex_point_by(long rule, const Tags& tags, bool is_dart, int ve
 
 /// Both levels' rules; where they differ, shared by the mean of the sharpness that ends here.
 Vec3 MaskStep::vertex_point(int vertex) const {
-  if (!is_fan(vertex)) return point(vertex);
+  if (coarse_.vertex_non_manifold[at(vertex)]) return point(vertex);
   const Tags now = tags(vertex), next = child_tags(vertex);
   const long rule = now.rule(), child = rule < 2 ? rule : next.rule();
   const bool is_dart = rule == 1 || child == 1;
