@@ -12,7 +12,7 @@ ClosedRing::ClosedRing(const Ring& ring, std::size_t low, std::size_t high) : ri
   const int spokes = static_cast<int>(ring.spokes.size());
   int barriers = 0;
   for (const Ring::Spoke& spoke : ring.spokes) barriers += is_infinite(spoke.sharpness);
-  open_ = !ring.closed || barriers >= 2;
+  open_ = !ring.closed || barriers >= 2 || (barriers == 1 && is_infinite(ring.sharpness));
   if (!open_) {
     faces_ = static_cast<int>(ring.faces.size());
     start_ = static_cast<int>(low);

@@ -388,12 +388,19 @@ Refinement::Place Refinement::place_of_edge(int edge) const {
 }
 
 /// Around an edge's new vertex: the two halves of the edge, and what each side's face contributes between them. A side
-/// beyond an infinitely sharp edge of the face itself is left out.
+/// beyond an infinitely sharp edge of the face itself is left out, unless it meets the face in another corner, too, for
+/// then it comes back into the second rings.
 Ring Refinement::ring_of_edge(int edge) {
   Place place = place_of_edge(edge);
   const Ring::Spoke& spoke = place.ring->spokes[place.spoke];
   const int a = place.ring->vertex, b = spoke.end;
-  if (is_infinite(spoke.sharpness)) {
+  const auto meets_again = [&](const FaceSides* face) {
+    for (int i = 0; face && i < face->size(); ++i)
+      if (face->vertex(i) != a && face->vertex(i) != b && has_vertex(parent_.face, face->vertex(i))) return true;
+    return false;
+  };
+  const bool both_meet = meets_again(place.left) && meets_again(place.right);
+  if (is_infinite(spoke.sharpness) && !both_meet) {
     if (place.left && place.left->id() == parent_.face.id()) {
       place.right = nullptr;
     } else if (place.right && place.right->id() == parent_.face.id()) {

@@ -5,6 +5,7 @@
 #include "tests/catch.h"
 #include "tests/tools/oracle_models.h"
 #include "tools/validate/dense_check.h"
+#include "tools/validate/opensubdiv_oracle.h"
 
 namespace {
 

@@ -92,6 +92,27 @@ TEST_CASE("query, eval, info and render take a plug-in", "[tools][plugin]") {
   CHECK(folder.run({"render", model, "--plugin", plain, "-o", folder / "out.exr", "--size", "16x16"}).status == 0);
 }
 
+TEST_CASE("validate holds a plug-in against plain refinement by its masks", "[tools][plugin]") {
+  const Folder folder;
+  const auto validate = [&](const std::string& model, const std::string& plugin) {
+    return folder.run({"validate", model, "--plugin", example_plugin(plugin), "--evaluations", "40", "--rays", "40"});
+  };
+  // Semi-sharp edges of uneven sharpness; a seam around two triangles that share all three sides.
+  const std::string cube = folder.write(
+      "cube.obj",
+      "v -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 -1\nv 1 -1 -1\nf 1 2 4 3\nf 3 4 6 5\n"
+      "f 5 6 8 7\nf 7 8 2 1\nf 2 8 6 4\nf 7 1 3 5\nt crease 2/1/0 0 1 2.3\nt crease 2/1/0 1 3 1.7\n");
+  const std::string seam = folder.write("seam.obj",
+                                        "v 0 0 0\nv 1 0 0\nv 0.5 0 0.9\nv 0.5 -0.8 0\nv 0.5 0.8 0\nf 1 2 3\nf 2 1 3\n"
+                                        "f 4 2 1\nf 5 1 2\n");
+  for (const auto& [model, plugin] : {std::pair(cube, "kobbelt"), std::pair(seam, "butterfly")}) {
+    const Outcome outcome = validate(model, plugin);
+    CAPTURE(outcome.text);
+    CHECK(outcome.status == 0);
+    CHECK(holds(outcome.text, "refinement by the masks"));
+  }
+}
+
 TEST_CASE("scheme show and check name the rules of a plug-in", "[tools][plugin]") {
   const Folder folder;
   const std::string rules = "no crease rules: the cubic B-spline curve's are used";

@@ -10,6 +10,7 @@
 #include "tests/tools/cli_run.h"
 #include "tools/validate/check_evaluations.h"
 #include "tools/validate/check_rays.h"
+#include "tools/validate/opensubdiv_oracle.h"
 
 namespace shaolin::test {
 namespace {

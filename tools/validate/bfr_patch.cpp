@@ -95,7 +95,7 @@ void Piece::split() {
 SurfaceValues Piece::evaluate(double u, double v) {
   if (patch_) return patch_->evaluate(u, v);
   if (!children_[0]) split();
-  const ChildParameter in = child_parameter(rules_.triangular(), u, v);
+  const ChildPlace in = child_place(rules_.triangular(), u, v);
   SurfaceValues values = children_[static_cast<std::size_t>(in.child)]->evaluate(in.u, in.v);
   values.rescale(2 * in.direction);
   return values;

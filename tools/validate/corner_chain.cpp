@@ -56,7 +56,7 @@ SurfaceValues CornerChain::evaluate(int face, int corner, int level, double u, d
   const auto found = std::find(corners_.begin(), corners_.end(), Corner{face, corner});
   if (found == corners_.end()) throw std::logic_error("a face that does not touch the chain's vertex");
   while (static_cast<int>(levels_.size()) < level + 2) grow();
-  const ChildParameter in = child_parameter(rules_.triangular(), u, v);
+  const ChildPlace in = child_place(rules_.triangular(), u, v);
   Level& around = levels_[static_cast<std::size_t>(level) + 1];
   SurfaceValues values = piece(around, static_cast<int>(found - corners_.begin()), in.child).evaluate(in.u, in.v);
   values.position += around.origin;

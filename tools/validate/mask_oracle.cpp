@@ -60,7 +60,7 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
     if (static_cast<int>(normals.size()) > settling_levels) normals.pop_front();
     if (size <= 0x1p-54 * diagonal() && level >= settling_levels) break;
     const Refined fine = refine(cut.mesh, root_.rules, *masks_);
-    const ChildParameter in = child_parameter(triangular(), u, v);
+    const ChildPlace in = child_place(triangular(), u, v);
     u = in.u, v = in.v;
     const int child = fine.face_children[face][in.child];
     cut = cut_neighbourhood(fine.mesh, child, rings);

@@ -135,8 +135,10 @@ MaskStep::Fan MaskStep::fan(int face, int corner) const {
   int creases = 0;
   for (int i = 0; i < around.size(); ++i)
     creases += coarse_.is_crease(coarse_.next_edge(around.faces[at(i)], around.corners[at(i)]));
-  const Sector& sector = around.closed && creases < 2 ? around : cut;
-  Fan fan{coarse_.face_vertices[face][at(corner)], sector.closed, {}, {}, 0};
+  const int vertex = coarse_.face_vertices[face][at(corner)];
+  const bool is_cut = creases >= (coarse_.vertex_sharpness[at(vertex)] >= osd_infinite ? 1 : 2);
+  const Sector& sector = around.closed && !is_cut ? around : cut;
+  Fan fan{vertex, sector.closed, {}, {}, 0};
   for (int i = 0; i < sector.size(); ++i) {
     const int f = sector.faces[at(i)], c = sector.corners[at(i)];
     if (f == face && c == corner) fan.from = i;

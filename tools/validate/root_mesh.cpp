@@ -94,7 +94,7 @@ RootMesh::Place RootMesh::place_of(const SurfaceParameter& at) const {
   if (rules.triangular() && u + v > 1) v = 1 - u;
   if (face_children.size() == 0) return {at.face, u, v, 1};
   if (sub_counts[static_cast<std::size_t>(at.face)] > 1) return {face_children[at.face][at.sub], u, v, 1};
-  const ChildParameter in = child_parameter(false, u, v);
+  const ChildPlace in = child_place(false, u, v);
   return {face_children[at.face][in.child], in.u, in.v, 2};
 }
 

@@ -306,7 +306,7 @@ Refined refine(const TaggedMesh& mesh, const SubdivisionRules& rules) {
   return result;
 }
 
-ChildParameter child_parameter(bool triangular, double u, double v) {
+ChildPlace child_place(bool triangular, double u, double v) {
   if (!triangular) {
     constexpr int child[2][2] = {{0, 3}, {1, 2}};
     const int a = u > 0.5, b = v > 0.5;

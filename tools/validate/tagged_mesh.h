@@ -110,11 +110,11 @@ Refined refine(const TaggedMesh& mesh, const SubdivisionRules& rules);
 
 /// The child of a quad or triangle that a parameter lies in, the parameter in the child's frame, and the frame's
 /// direction against the parent's. Halves belong to a quad's lower child and to a triangle's middle one.
-struct ChildParameter {
+struct ChildPlace {
   int child;
   double u, v;
   int direction;
 };
-ChildParameter child_parameter(bool triangular, double u, double v);
+ChildPlace child_place(bool triangular, double u, double v);
 
 }  // namespace shaolin
