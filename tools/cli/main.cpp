@@ -8,6 +8,7 @@
 #include "tools/cli/command.h"
 #include "tools/cli/eval.h"
 #include "tools/cli/info.h"
+#include "tools/cli/peers.h"
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
 #include "tools/cli/scheme.h"
@@ -51,6 +52,7 @@ int parse_and_run(int argc, char** argv) {
   add_info(app, command);
   add_validate(app, command);
   add_scheme(app, command);
+  add_peers(app, command);
 
   try {
     app.parse(argc, argv);

@@ -23,11 +23,7 @@ const std::map<std::string, Sdc::SchemeType> schemes{
     {"loop", Sdc::SCHEME_LOOP}, {"catmark", Sdc::SCHEME_CATMARK}, {"bilinear", Sdc::SCHEME_BILINEAR}};
 
 RootMesh root_of(const ControlMesh& mesh, const std::string& scheme) {
-  const auto at = schemes.find(scheme);
-  if (at == schemes.end())
-    throw InputError("OpenSubdiv has no scheme '" + scheme +
-                     "' to hold it against; expected loop, catmark or bilinear");
-  const SubdivisionRules rules = rules_of(mesh, at->second);
+  const SubdivisionRules rules = rules_of(mesh, scheme_type(scheme));
   return {mesh, rules, [&](const TaggedMesh& coarse) { return refine(coarse, rules); }};
 }
 
@@ -57,6 +53,14 @@ LimitSample sample_of(const SurfaceValues& values) {
 }
 
 }  // namespace
+
+Sdc::SchemeType scheme_type(const std::string& scheme) {
+  const auto at = schemes.find(scheme);
+  if (at == schemes.end())
+    throw InputError("OpenSubdiv has no scheme '" + scheme +
+                     "' to hold it against; expected loop, catmark or bilinear");
+  return at->second;
+}
 
 class OpenSubdivOracle::Implementation {
  public:

@@ -18,6 +18,9 @@ struct OracleOptions {
   int heavy_valence = 40;
 };
 
+/// OpenSubdiv's scheme of that name: "loop", "catmark" or "bilinear". Throws InputError for another name.
+OpenSubdiv::Sdc::SchemeType scheme_type(const std::string& scheme);
+
 /// Evaluation of Bfr's surface in double at approximation levels (10, 10). Near an irregular corner the 3-ring of the
 /// corner is refined by Far until the parameter lies in a piece that does not touch the corner, and Bfr evaluates that
 /// piece. Exactly at an irregular corner the position is the limit of Far's refinement.

@@ -36,7 +36,8 @@ void expect_triangles(const ControlMesh& mesh) {
   }
 }
 
-/// OpenSubdiv's base level, with the boundary option and the holes as given.
+}  // namespace
+
 std::unique_ptr<Far::TopologyRefiner> control_refiner(const ControlMesh& mesh, SubdivisionRules rules) {
   if (rules.triangular()) expect_triangles(mesh);
   rules.options.SetVtxBoundaryInterpolation(boundary_of(mesh.boundary));
@@ -46,8 +47,6 @@ std::unique_ptr<Far::TopologyRefiner> control_refiner(const ControlMesh& mesh, S
     throw InputError(error.what());
   }
 }
-
-}  // namespace
 
 SubdivisionRules rules_of(const ControlMesh& mesh, Sdc::SchemeType scheme) {
   if (!mesh.cones.empty()) throw InputError("OpenSubdiv has no conical vertices to hold the surface against");

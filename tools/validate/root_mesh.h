@@ -12,6 +12,10 @@ namespace shaolin {
 /// The options of a mesh in OpenSubdiv's terms. Throws InputError for conical vertices, which OpenSubdiv has not.
 SubdivisionRules rules_of(const ControlMesh& mesh, OpenSubdiv::Sdc::SchemeType scheme);
 
+/// OpenSubdiv's refiner over a control mesh, with its boundary option and holes. Throws InputError for the triangle
+/// split over other faces and for meshes that OpenSubdiv declines. O(size).
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> control_refiner(const ControlMesh& mesh, SubdivisionRules rules);
+
 /// The control mesh, or its first refinement if it has faces that are not the split's own kind, so that a corner of an
 /// n-gon is a quad.
 struct RootMesh {
