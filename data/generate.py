@@ -10,7 +10,7 @@ from generator.rook import rook  # noqa: E402
 from generator.whale import whale  # noqa: E402
 
 MODELS = [
-    basic.cube_creases, basic.dart, basic.hole, basic.loop_torus, basic.ngon_body, basic.pole, basic.saddle,
+    basic.cube_creases, basic.dart, basic.hole, basic.loop_torus, basic.ngon_body, basic.pole, basic.sail, basic.saddle,
     basic.tetrahedron, basic.torus, rook, whale,
 ]
 

@@ -116,6 +116,21 @@ def saddle():
     return mesh
 
 
+def sail():
+    mesh = Mesh("catmark", "A sail of quads: its boundary is one smooth curve, corners too; a seam ends at one of them.")
+    rows = []
+    for j in range(4):
+        rows.append([mesh.point(i, j, (i - 1.5) ** 2 / 4 - (j - 1) ** 2 / 8) for i in range(4)])
+    for j in range(3):
+        for i in range(3):
+            mesh.face(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
+    top = [mesh.point(3 + i, 4 - i, 1) for i in range(2)]  # the last corner has three faces
+    mesh.face(rows[3][2], rows[3][3], top[0], mesh.point(2, 4, 0.5))
+    mesh.face(rows[3][3], rows[2][3], top[1], top[0])
+    mesh.tag("interpolateboundary 1/0/0 2")
+    return mesh
+
+
 def pole():
     mesh = Mesh("catmark", "A lantern whose two poles have valence 32.")
     bottom = mesh.point(0, -1, 0)

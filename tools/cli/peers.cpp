@@ -8,6 +8,7 @@
 
 #include "schemes/builtin.h"
 #include "schemes/errors.h"
+#include "schemes/limit_surface.h"
 #include "schemes/load_plugin.h"
 #include "schemes/obj.h"
 #include "tools/validate/peer.h"

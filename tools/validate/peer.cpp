@@ -1,7 +1,6 @@
 #include "tools/validate/peer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
@@ -11,14 +10,20 @@
 namespace shaolin {
 namespace {
 
-double farthest_from(const std::vector<Vec3>& points, const std::vector<Vec3>& others) {
+/// Of the points, the one that is farthest from all others; these are searched in the order of x.
+double farthest_from(const std::vector<Vec3>& points, std::vector<Vec3> others) {
+  std::sort(others.begin(), others.end(), [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
   double farthest = 0;
   for (const Vec3& p : points) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec3& q : others) nearest = std::min(nearest, (p - q).squaredNorm());
+    const auto from = std::lower_bound(others.begin(), others.end(), p.x(),
+                                       [](const Vec3& q, double x) { return q.x() < x; });
+    for (auto q = from; q != others.end() && q->x() - p.x() <= nearest; ++q) nearest = std::min(nearest, (p - *q).norm());
+    for (auto q = from; q != others.begin() && p.x() - (q - 1)->x() <= nearest; --q)
+      nearest = std::min(nearest, (p - *(q - 1)).norm());
     farthest = std::max(farthest, nearest);
   }
-  return std::sqrt(farthest);
+  return farthest;
 }
 
 /// Faces at each edge, however it runs.
