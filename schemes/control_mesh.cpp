@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "errors.h"
@@ -24,6 +28,7 @@ class MeshCheck {
     require_faces();
     require_tags();
     warn_about_vertices();
+    warn_about_windings();
     warn_about_creases();
   }
 
@@ -133,6 +138,45 @@ class MeshCheck {
     warn("isolated vertices: " + std::to_string(isolated) + ", the first is vertex " + std::to_string(first) +
              " (counted from 0)",
          line_of(places_.positions, static_cast<std::size_t>(first)));
+  }
+
+  /// Edges of two faces that run along them in the same direction. Sides are put in order by the vertex that they leave,
+  /// by counting: a large mesh is not to wait for a sort.
+  void warn_about_windings() {
+    struct Side {
+      int to, face;
+    };
+    std::vector<std::size_t> first(mesh_.positions.size() + 2, 0);
+    for (const int v : mesh_.face_vertices) ++first[static_cast<std::size_t>(v) + 2];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Side> sides(mesh_.face_vertices.size());
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      int from = mesh_.face(f).back();
+      for (const int to : mesh_.face(f)) sides[first[static_cast<std::size_t>(from) + 1]++] = {to, f}, from = to;
+    }
+    const auto leaving = [&](int v) {  // each place has moved on to the next vertex's first side
+      return std::span(sides).subspan(first[static_cast<std::size_t>(v)],
+                                      first[static_cast<std::size_t>(v) + 1] - first[static_cast<std::size_t>(v)]);
+    };
+    int opposed = 0;
+    for (int from = 0; from < static_cast<int>(mesh_.positions.size()); ++from) {
+      const std::span<Side> around = leaving(from);
+      std::sort(around.begin(), around.end(),
+                [](const Side& a, const Side& b) { return std::tie(a.to, a.face) < std::tie(b.to, b.face); });
+      for (auto same = around.begin(); same != around.end();) {
+        const auto end = std::find_if(same, around.end(), [&](const Side& side) { return side.to != same->to; });
+        const std::span<Side> back = leaving(same->to);
+        const bool is_pair = end - same == 2 && same[0].face != same[1].face && same->to != from &&
+                             std::none_of(back.begin(), back.end(), [&](const Side& side) { return side.to == from; });
+        if (is_pair && ++opposed <= warnings_per_kind)
+          warn("faces " + std::to_string(same[0].face) + " and " + std::to_string(same[1].face) +
+                   " are wound against each other: both lead from vertex " + std::to_string(from) + " to vertex " +
+                   std::to_string(same->to) + " (counted from 0); the surface is cut along that edge",
+               line_of(places_.faces, static_cast<std::size_t>(same[1].face)));
+        same = end;
+      }
+    }
+    warn_about_more(opposed, "edges between faces that are wound against each other");
   }
 
   static std::uint64_t edge_key(int a, int b) {

@@ -50,7 +50,7 @@ struct ControlMesh {
   std::string scheme;  ///< the file's `t scheme` hint; empty if it has none
 
   /// What is odd but usable, one sentence each, with file and line where known: isolated vertices, a vertex repeated
-  /// in a face, creases on edges that do not exist.
+  /// in a face, neighbours wound against each other, creases on edges that do not exist.
   std::vector<std::string> warnings;
 
   int face_count() const { return static_cast<int>(face_offsets.size()) - 1; }

@@ -42,6 +42,18 @@ TEST_CASE("What is odd but usable is a warning with file and line", "[schemes][c
   check_starts(crease.warnings[1], "m.obj:9: crease 1 1 ");
 }
 
+TEST_CASE("Neighbours that are wound against each other are named", "[schemes][control_mesh]") {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
+  CHECK(parse(points + "f 1 2 3 4\nf 2 5 6 3\n").warnings.empty());
+  const ControlMesh opposed = parse(points + "f 1 2 3 4\nf 3 6 5 2\nf 2 3 1\n");
+  CHECK(opposed.warnings.empty());  // three faces at the edge: it is no matter of winding
+  const ControlMesh pair = parse(points + "f 1 2 3 4\nf 2 3 6 5\n");
+  REQUIRE(pair.warnings.size() == 1);
+  CHECK(pair.warnings[0] ==
+        "m.obj:8: faces 0 and 1 are wound against each other: both lead from vertex 1 to vertex 2 (counted from 0); "
+        "the surface is cut along that edge");
+}
+
 TEST_CASE("Warnings of one kind end with a count", "[schemes][control_mesh]") {
   std::string text = tetrahedron;
   for (int i = 0; i < 25; ++i) text += "f 1 2 1 3\n";
