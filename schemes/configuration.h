@@ -36,9 +36,10 @@ class Configuration {
     SplitProgram program;
   };
 
-  Configuration(CanonicalForm form, ConfigurationTable<S>& table)
-      : neighbourhood_(std::move(form.neighbourhood)),
-        point_count_(static_cast<int>(form.vertices.size())),
+  /// `neighbourhood` is in canonical numbers and has so many vertices.
+  Configuration(Neighbourhood neighbourhood, std::size_t vertices, ConfigurationTable<S>& table)
+      : neighbourhood_(std::move(neighbourhood)),
+        point_count_(static_cast<int>(vertices)),
         layout_(regular_layout<Regular>(basis_of(table.rules().scheme), neighbourhood_)),
         children_(static_cast<std::size_t>(child_count())),
         limit_rows_(static_cast<std::size_t>(corner_count())),
@@ -148,12 +149,11 @@ class ConfigurationTable {
     drop_beyond_creases(neighbourhood);
     turn_to_face(neighbourhood);
     CanonicalForm form = canonical_form(neighbourhood);
-    Match result{nullptr, form.vertices};
     const std::lock_guard lock(mutex_);
-    auto& slot = configurations_[form.key];
-    if (!slot) slot = std::make_unique<Configuration<S>>(std::move(form), *this);
-    result.configuration = slot.get();
-    return result;
+    auto& slot = configurations_[std::move(form.key)];
+    if (!slot)
+      slot = std::make_unique<Configuration<S>>(in_canonical_numbers(neighbourhood), form.vertices.size(), *this);
+    return {slot.get(), std::move(form.vertices)};
   }
 
   typename Configuration<S>::Child split(const Configuration<S>& parent, int k) {

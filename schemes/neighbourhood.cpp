@@ -1,10 +1,13 @@
 #include "neighbourhood.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <cstddef>
 #include <iterator>
 #include <limits>
+#include <memory_resource>
 #include <optional>
 #include <unordered_map>
 
@@ -186,67 +189,107 @@ void turn_to_face(Neighbourhood& neighbourhood) {
   std::move(met.begin(), met.end(), std::back_inserter(rings));
 }
 
-CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
-  CanonicalForm result;
-  std::unordered_map<int, int> vertex_numbers, edge_numbers;
-  const auto number_of = [&](int vertex) {
-    const auto [at, is_new] = vertex_numbers.try_emplace(vertex, static_cast<int>(result.vertices.size()));
-    if (is_new) result.vertices.push_back(vertex);
-    return at->second;
-  };
-  const auto edge_number = [&](int edge) {
-    return edge_numbers.try_emplace(edge, static_cast<int>(edge_numbers.size())).first->second;
-  };
+namespace {
 
-  struct Copied {
+/// The walk that numbers vertices, edges and faces as it meets them, writes the key and, if asked to, a copy in the new
+/// numbers. Its own lists live in one buffer, for they are many and short-lived.
+class CanonicalWalk {
+ public:
+  explicit CanonicalWalk(bool copies) : copies_(copies) {}
+
+  void over(const Neighbourhood& neighbourhood);
+
+  std::vector<int> vertices, key;
+  Neighbourhood copy;
+
+ private:
+  struct Known {
+    int id;
     FaceSides original, copy;
   };
-  std::unordered_map<int, Copied> copied;
-  const auto renumbered = [&](const FaceSides& face) {
-    const auto [at, is_new] = copied.try_emplace(face.id());
-    Copied& known = at->second;
-    if (!is_new) {
-      const int turn = known.original.turn_to(face);
-      result.key.insert(result.key.end(), {known.copy.id(), turn});
-      return known.copy.turned(turn);
-    }
-    const int id = static_cast<int>(copied.size()) - 1, size = face.size();
-    std::vector<int> vertices, sides;
-    for (int i = 0; i < size; ++i) vertices.push_back(number_of(face.vertex(i)));
-    for (int i = 0; i < size; ++i) sides.push_back(edge_number(face.side(i)));
-    result.key.insert(result.key.end(), {id, size});
-    result.key.insert(result.key.end(), vertices.begin(), vertices.end());
-    result.key.insert(result.key.end(), sides.begin(), sides.end());
-    known = {face, FaceSides(id, vertices.data(), sides.data(), size)};
-    result.neighbourhood.lists.push_back(std::move(vertices));
-    result.neighbourhood.lists.push_back(std::move(sides));
-    return known.copy;
-  };
-  const auto add_sharpness = [&](float value) { result.key.push_back(std::bit_cast<int>(value)); };
-
-  result.neighbourhood.face = renumbered(neighbourhood.face);
-  for (const Ring& ring : neighbourhood.rings) {
-    Ring copy;
-    copy.vertex = number_of(ring.vertex);
-    copy.closed = ring.closed;
-    copy.sharpness = ring.sharpness;
-    copy.cone = ring.cone;
-    result.key.insert(result.key.end(),
-                      {copy.vertex, copy.closed + 2 * copy.cone, static_cast<int>(ring.spokes.size())});
-    add_sharpness(ring.sharpness);
-    for (const FaceSides& face : ring.faces) copy.faces.push_back(renumbered(face));
-    for (const Ring::Spoke& spoke : ring.spokes) {
-      copy.spokes.push_back(spoke);
-      copy.spokes.back().end = number_of(spoke.end);
-      copy.spokes.back().edge = edge_number(spoke.edge);
-      add_sharpness(spoke.sharpness);
-      if (!is_semi_sharp(spoke.sharpness)) continue;  // then the halves follow from it
-      add_sharpness(spoke.near_half);
-      add_sharpness(spoke.far_half);
-    }
-    result.neighbourhood.rings.push_back(std::move(copy));
+  int vertex(int old) {
+    const auto [at, is_new] = vertex_numbers_.try_emplace(old, static_cast<int>(vertices.size()));
+    if (is_new) vertices.push_back(old);
+    return at->second;
   }
-  return result;
+  int edge(int old) { return edge_numbers_.try_emplace(old, static_cast<int>(edge_numbers_.size())).first->second; }
+  void add_sharpness(float value) { key.push_back(std::bit_cast<int>(value)); }
+  FaceSides face(const FaceSides& old);
+  void ring(const Ring& old);
+
+  bool copies_;
+  std::array<std::byte, 16384> buffer_;
+  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
+  std::pmr::unordered_map<int, int> vertex_numbers_{&memory_}, edge_numbers_{&memory_};
+  std::pmr::unordered_map<int, Known> faces_{&memory_};
+};
+
+/// The face in the new numbers; empty without copies.
+FaceSides CanonicalWalk::face(const FaceSides& old) {
+  const auto [at, is_new] = faces_.try_emplace(old.id());
+  Known& known = at->second;
+  if (!is_new) {
+    const int turn = known.original.turn_to(old);
+    key.insert(key.end(), {known.id, turn});
+    return copies_ ? known.copy.turned(turn) : FaceSides();
+  }
+  const int id = static_cast<int>(faces_.size()) - 1, size = old.size();
+  key.insert(key.end(), {id, size});
+  const std::size_t first = key.size();
+  for (int i = 0; i < size; ++i) key.push_back(vertex(old.vertex(i)));
+  for (int i = 0; i < size; ++i) key.push_back(edge(old.side(i)));
+  known = {id, old, {}};
+  if (!copies_) return {};
+  const std::vector<int>& list = copy.lists.emplace_back(key.begin() + static_cast<std::ptrdiff_t>(first), key.end());
+  return known.copy = FaceSides(id, list.data(), list.data() + size, size);
+}
+
+void CanonicalWalk::ring(const Ring& old) {
+  const int centre = vertex(old.vertex);
+  key.insert(key.end(), {centre, old.closed + 2 * old.cone, static_cast<int>(old.spokes.size())});
+  add_sharpness(old.sharpness);
+  Ring renamed;
+  for (const FaceSides& of : old.faces) {
+    const FaceSides here = face(of);
+    if (copies_) renamed.faces.push_back(here);
+  }
+  for (const Ring::Spoke& spoke : old.spokes) {
+    const int end = vertex(spoke.end), its_edge = edge(spoke.edge);
+    if (copies_) {
+      renamed.spokes.push_back(spoke);
+      renamed.spokes.back().end = end;
+      renamed.spokes.back().edge = its_edge;
+    }
+    add_sharpness(spoke.sharpness);
+    if (!is_semi_sharp(spoke.sharpness)) continue;  // then the halves follow from it
+    add_sharpness(spoke.near_half);
+    add_sharpness(spoke.far_half);
+  }
+  if (!copies_) return;
+  renamed.vertex = centre;
+  renamed.closed = old.closed;
+  renamed.sharpness = old.sharpness;
+  renamed.cone = old.cone;
+  copy.rings.push_back(std::move(renamed));
+}
+
+void CanonicalWalk::over(const Neighbourhood& neighbourhood) {
+  copy.face = face(neighbourhood.face);
+  for (const Ring& old : neighbourhood.rings) ring(old);
+}
+
+}  // namespace
+
+CanonicalForm canonical_form(const Neighbourhood& neighbourhood) {
+  CanonicalWalk walk(false);
+  walk.over(neighbourhood);
+  return {std::move(walk.vertices), std::move(walk.key)};
+}
+
+Neighbourhood in_canonical_numbers(const Neighbourhood& neighbourhood) {
+  CanonicalWalk walk(true);
+  walk.over(neighbourhood);
+  return std::move(walk.copy);
 }
 
 Refinement::Refinement(const Neighbourhood& parent, FaceKind kind, CreaseMethod creases)

@@ -1,9 +1,11 @@
 #pragma once
 /// Operations on the topology around a face: its reduction to what matters, and its refinement.
 #include <array>
+#include <cstddef>
 #include <deque>
 #include <initializer_list>
 #include <map>
+#include <memory_resource>
 #include <tuple>
 #include <vector>
 
@@ -28,14 +30,16 @@ void drop_beyond_creases(Neighbourhood& neighbourhood);
 /// comes from.
 void turn_to_face(Neighbourhood& neighbourhood);
 
-/// The neighbourhood with its vertices and faces numbered in the order of a fixed walk, so that equal topology gives
-/// equal numbers. `vertices[i]` is the old name of vertex i; corners come first. `key` spells everything out.
+/// The vertices and faces of a neighbourhood numbered in the order of a fixed walk, so that equal topology gives equal
+/// numbers. `vertices[i]` is the old name of vertex i; corners come first. `key` spells everything out.
 struct CanonicalForm {
-  Neighbourhood neighbourhood;
   std::vector<int> vertices;
   std::vector<int> key;
 };
 CanonicalForm canonical_form(const Neighbourhood& neighbourhood);
+
+/// The neighbourhood in these numbers. (Few that are met are new, so most need no copy.)
+Neighbourhood in_canonical_numbers(const Neighbourhood& neighbourhood);
 
 /// Where a vertex of the next level comes from.
 struct RefinedVertex {
@@ -70,7 +74,7 @@ class Refinement {
   /// or runs along it (triangles), and the child at a corner (by the side that leaves it) or the middle one.
   int half(int edge, int end) { return named(edge_ids_, {0, edge, end}); }
   int inner(int face, int side) { return named(edge_ids_, {1, face, side}); }
-  using Names = std::map<std::tuple<int, int, int>, int>;
+  using Names = std::pmr::map<std::tuple<int, int, int>, int>;
   static int named(Names& names, std::tuple<int, int, int> name) {
     return names.try_emplace(name, static_cast<int>(names.size())).first->second;
   }
@@ -95,16 +99,18 @@ class Refinement {
   SemiSharpEdges halves_around(int v) const;
   void add_side(Ring& ring, const FaceSides& face, int at);
 
+  std::array<std::byte, 16384> buffer_;  // for the many short-lived nodes of the maps
+  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   const Neighbourhood& parent_;
   FaceKind kind_;
   CreaseMethod creases_;
-  std::map<int, const Ring*> rings_;
-  std::map<int, FaceSides> faces_;
-  std::map<RefinedVertex, int> numbers_;
+  std::pmr::map<int, const Ring*> rings_{&memory_};
+  std::pmr::map<int, FaceSides> faces_{&memory_};
+  std::pmr::map<RefinedVertex, int> numbers_{&memory_};
   std::vector<RefinedVertex> vertices_;
-  Names edge_ids_, face_ids_;
-  std::map<int, FaceSides> children_;     ///< the next level's faces by identifier
-  std::deque<std::array<int, 8>> lists_;  ///< that they look at
+  Names edge_ids_{&memory_}, face_ids_{&memory_};
+  std::pmr::map<int, FaceSides> children_{&memory_};     ///< the next level's faces by identifier
+  std::pmr::deque<std::array<int, 8>> lists_{&memory_};  ///< that they look at
 };
 
 }  // namespace shaolin

@@ -1,5 +1,9 @@
 #pragma once
 /// How the control points of a child patch come from its parent's: masks and indices, compiled once per configuration.
+#include <array>
+#include <cstddef>
+#include <map>
+#include <memory_resource>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -93,12 +97,14 @@ class SplitProgram::Compiler {
     bool inside() const { return ring->closed || (spoke > 0 && spoke < ring->faces.size()); }
   };
 
+  std::array<std::byte, 8192> buffer_;  // for the maps' nodes
+  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
   FaceKind kind_;
   SplitProgram& program_;
-  std::map<int, const Ring*> rings_;
-  std::map<int, FaceSides> faces_;
-  std::map<int, Place> edges_;
-  std::map<int, int> face_steps_;
+  std::pmr::map<int, const Ring*> rings_{&memory_};
+  std::pmr::map<int, FaceSides> faces_{&memory_};
+  std::pmr::map<int, Place> edges_{&memory_};
+  std::pmr::map<int, int> face_steps_{&memory_};
 };
 
 /// Writes stencils. A neighbourhood's rings and the edges and faces in them are looked up by name.
