@@ -52,10 +52,10 @@ struct Bvh::Builder {
   }
 
   /// The two children of a binary node, then the largest inner one of them replaced by its own two until there are
-  /// four.
-  std::vector<std::int32_t> four_children(std::int32_t node) const {
+  /// as many as a wide node holds.
+  std::vector<std::int32_t> wide_children(std::int32_t node) const {
     std::vector<std::int32_t> children{node};
-    while (children.size() < 4) {
+    while (children.size() < width) {
       double largest = -1;
       std::size_t open = children.size();
       for (std::size_t i = 0; i < children.size(); ++i) {
@@ -73,7 +73,7 @@ struct Bvh::Builder {
   }
 
   /// Collapses the binary hierarchy; returns the depth.
-  int collapse(std::vector<Node>& wide) const {
+  int collapse(std::vector<Node>& wide, const BoxSpace& space) const {
     struct Open {
       std::int32_t binary;
       std::size_t wide;
@@ -86,7 +86,7 @@ struct Bvh::Builder {
       const Open task = tasks.back();
       tasks.pop_back();
       depth = std::max(depth, task.depth);
-      const std::vector<std::int32_t> children = four_children(task.binary);
+      const std::vector<std::int32_t> children = wide_children(task.binary);
       for (std::size_t i = 0; i < children.size(); ++i) {
         const Binary& child = nodes[at(children[i])];
         std::int32_t target = child.first;
@@ -95,7 +95,7 @@ struct Bvh::Builder {
           wide.emplace_back();
           tasks.push_back({children[i], at(target), task.depth + 1});
         }
-        wide[task.wide].boxes.set(i, child.box);
+        wide[task.wide].boxes.set(i, {child.box, space});
         wide[task.wide].child[i] = target;
       }
     }
@@ -160,16 +160,35 @@ struct Bvh::Builder {
   }
 };
 
-Bvh::Bvh(const std::vector<Box>& boxes) {
+namespace {
+
+/// The bounds of those boxes that have bounds.
+Box finite_bounds(const std::vector<Box>& boxes) {
+  Box finite;
+  for (const Box& box : boxes)
+    if (box.lower.allFinite() && box.upper.allFinite()) finite.add(box);
+  return finite;
+}
+
+}  // namespace
+
+Bvh::Bvh(const std::vector<Box>& boxes) : space_(finite_bounds(boxes)) {
   if (boxes.empty()) return;
   Builder builder{boxes, {}, std::vector<std::int32_t>(boxes.size()), {}};
   builder.centres.reserve(boxes.size());
   for (const Box& box : boxes) builder.centres.push_back(box.centre());
   std::iota(builder.order.begin(), builder.order.end(), 0);
   builder.build();
-  depth_ = builder.collapse(nodes_);
+  depth_ = builder.collapse(nodes_, space_);
   nodes_.shrink_to_fit();
   bounds_ = builder.nodes.front().box;
+}
+
+std::optional<BoxRay> Bvh::enter(const TraversalRay& ray) const {
+  const std::optional<double> entry = entry_distance(bounds_, ray, ray.far);
+  if (!entry) return {};
+  const double start = std::max(*entry, ray.near);
+  return BoxRay(ray, space_, std::isfinite(start) ? start : 0);  // 0: neither the bounds nor the ray begin
 }
 
 }  // namespace shaolin

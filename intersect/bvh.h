@@ -1,9 +1,10 @@
 #pragma once
-/// A bounding volume hierarchy over boxes, four children a node, one primitive a leaf.
+/// A bounding volume hierarchy over boxes, eight children a node, one primitive a leaf; boxes in single precision.
+#include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "box.h"
+#include "box_space.h"
 
 namespace shaolin {
 
@@ -13,55 +14,69 @@ class Bvh {
   /// Surface-area heuristic over 16 bins of centroids (Wald 2007). Deterministic. O(n log n).
   explicit Bvh(const std::vector<Box>& boxes);
 
-  /// Calls visit(primitive, entry distance) for the primitives whose boxes the ray meets before `far()`, nearest box
-  /// first within each node; `far()` may shrink meanwhile. Stops when visit returns true.
+  /// The ray in the coordinates of the boxes, from where it enters the bounds; empty if it misses them.
+  std::optional<BoxRay> enter(const TraversalRay& ray) const;
+
+  /// Calls visit(primitive) for the primitives whose boxes the ray meets before `far()`, nearest box first within each
+  /// node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`, in the ray's units,
+  /// may shrink meanwhile. Stops when visit returns true.
   template <class Far, class Visit>
-  void traverse(const TraversalRay& ray, Far far, Visit visit) const;
+  void traverse(const BoxRay& ray, Far far, Visit visit) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
   const Box& bounds() const { return bounds_; }
+  const BoxSpace& space() const { return space_; }
 
  private:
-  /// Four boxes and what stands in them: a node, ~primitive, or nothing (the empty box).
+  static constexpr std::size_t width = 8;
+
+  /// Boxes and what stands in them: a node, ~primitive, or nothing (an empty box).
   struct Node {
-    FourBoxes boxes;
-    std::array<std::int32_t, 4> child{};
+    EightBoxes boxes;
+    std::array<std::int32_t, width> child{};
   };
   struct Builder;
 
   std::vector<Node> nodes_;
   Box bounds_;
+  BoxSpace space_;
   int depth_ = 0;
 };
 
 template <class Far, class Visit>
-void Bvh::traverse(const TraversalRay& ray, Far far, Visit visit) const {
+void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
   struct Entry {
     std::int32_t child;
-    double distance;
+    float distance;
   };
   if (nodes_.empty()) return;
-  // Every level leaves at most three entries behind.
-  constexpr int usual = 128;
+  // Every level leaves at most width - 1 entries behind.
+  constexpr std::size_t usual = 192;
   std::array<Entry, usual> fixed;
   std::vector<Entry> large;
   Entry* stack = fixed.data();
-  if (3 * depth_ + 4 > usual) {
-    large.resize(static_cast<std::size_t>(3 * depth_ + 4));
+  if (const auto most = (width - 1) * static_cast<std::size_t>(depth_) + 1; most > usual) {
+    large.resize(most);
     stack = large.data();
   }
-  int size = 0;
-  stack[size++] = {0, -std::numeric_limits<double>::infinity()};
-  while (size > 0) {
-    const Entry entry = stack[--size];
+  Entry* top = stack;
+  *top++ = {0, 0};
+  alignas(32) std::array<float, width> entries;
+  while (top != stack) {
+    const Entry entry = *--top;
     if (entry.distance > far()) continue;
     if (entry.child < 0) {
-      if (visit(~entry.child, entry.distance)) return;
+      if (visit(~entry.child)) return;
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
-    const BoxOrder order(node.boxes, ray, far());
-    for (int i = order.count() - 1; i >= 0; --i) stack[size++] = {node.child[order.box(i)], order.distance(i)};
+    Entry* const first = top;
+    for (unsigned met = ray.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      Entry* at = top++;
+      for (; at != first && at[-1].distance < entries[i]; --at) *at = at[-1];
+      *at = {node.child[i], entries[i]};
+    }
   }
 }
 

@@ -68,7 +68,8 @@ class ExactFinish {
   }
   bool is_no_nearer(const Net& cell, const Matrix& jacobian) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
-  Verdict newton(const Net& cell, const Matrix& flattening, double contraction, PatchHit& hit);
+  Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
+  static double corner_mean(const std::array<double, 16>& values);
   void accept(const Parameter& at, double distance, const Parameter& origin, const Parameter& scale);
 
   double impatience() const { return std::exp2(std::min(4, cells_ / patience)); }
@@ -146,7 +147,8 @@ SHAOLIN_FLATTEN void ExactFinish<Bezier>::visit(const Net& cell, const Parameter
   const double share = contraction(flat_x, flat_y);
   if (share < 0.95 && error_ * flattening.norm() < 0.25) {
     PatchHit hit;
-    const Verdict verdict = newton(cell, flattening, share, hit);
+    const Parameter start = D::nearest(D::centre() - Parameter(corner_mean(flat_x), corner_mean(flat_y)));
+    const Verdict verdict = newton(cell, flattening, share, start, hit);
     if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
@@ -191,6 +193,14 @@ double ExactFinish<Bezier>::contraction(const std::array<double, 16>& x, const s
   return std::sqrt(along_u + along_v) + 1e-9;
 }
 
+/// The mean of a net's corners: where the plane that it deviates from stands at the centre.
+template <class Bezier>
+double ExactFinish<Bezier>::corner_mean(const std::array<double, 16>& values) {
+  double sum = 0;
+  for (const std::size_t corner : Bezier::corners) sum += values[corner];
+  return sum / static_cast<double>(Bezier::corners.size());
+}
+
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
 /// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
 /// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at. A point
@@ -198,11 +208,10 @@ double ExactFinish<Bezier>::contraction(const std::array<double, 16>& x, const s
 /// (1 - q) of that.
 template <class Bezier>
 SHAOLIN_FLATTEN auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction,
-                                                 PatchHit& hit) -> Verdict {
+                                                 Parameter at, PatchHit& hit) -> Verdict {
   const double slack = error_ * flattening.norm() * 1.5 / (1 - contraction);
-  Parameter at = D::centre();
   constexpr int most_steps = 12;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int i = 0; i < most_steps; ++i) {
     ++counters_.newton_steps;
     const typename Bezier::Weights weights = Bezier::weights(at);
     const Eigen::Vector2d f(dot(cell.x, weights.value), dot(cell.y, weights.value));
@@ -215,16 +224,19 @@ SHAOLIN_FLATTEN auto ExactFinish<Bezier>::newton(const Net& cell, const Matrix& 
     }
     Matrix jacobian;
     jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
-    const Parameter next = D::nearest(at - jacobian.inverse() * f);
-    if (on_ray) {
-      // The step from here wins the last digits, unless it is long (a grazing ray): to first order the distance follows
-      // it, and 1e-8 squared is below rounding.
-      Eigen::Vector2d last = next - at;
-      if (!(last.norm() <= 1e-8)) last.setZero();
+    const Eigen::Vector2d step = -(jacobian.inverse() * f);
+    // The step from here wins the last digits: it leaves the square of its length, which is below rounding if it is
+    // short and stays in the cell. To first order the distance follows it. (A long one, of a grazing ray, is not
+    // taken.)
+    constexpr double shortest = 1e-8;
+    const bool is_last = step.norm() <= shortest;
+    if (on_ray || (is_last && D::contains(at + step))) {
+      const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
       hit = {at + last,
              dot(cell.z, weights.value) + dot(cell.z, weights.du) * last.x() + dot(cell.z, weights.dv) * last.y()};
       return Verdict::found;
     }
+    const Parameter next = D::nearest(at + step);
     if (next == at || !next.allFinite()) break;
     at = next;
   }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "../schemes/patch.h"
+#include "box_space.h"
 #include "limit_bounds.h"
 #include "net.h"
 
@@ -32,10 +33,10 @@ class PatchNode {
 
   /// The root of a tree: a start patch at `level` splits below its control face. The neighbourhood of an irregular face
   /// is much larger than its patch, so that box is tightened by the children's.
-  PatchNode(Patch<S> patch, int level, TreeTotals& totals) : level_(level) {
+  PatchNode(Patch<S> patch, int level, const BoxSpace& space, TreeTotals& totals) : level_(level) {
     set(std::move(patch));
     if (is_regular() || leaf_) return;
-    const Children& quarters = children(totals);
+    const Children& quarters = children(space, totals);
     box_ = Box();
     for (const PatchNode& child : quarters.nodes) box_.add(child.box());
   }
@@ -64,8 +65,8 @@ class PatchNode {
   /// The four children, or null if no ray needed them yet.
   const Children* known_children() const { return children_.load(std::memory_order_acquire); }
 
-  /// The four children, made now if no ray needed them before. Thread-safe; O(points).
-  const Children& children(TreeTotals& totals) const;
+  /// The four children, made now if no ray needed them before, with boxes for rays in `space`. Thread-safe; O(points).
+  const Children& children(const BoxSpace& space, TreeTotals& totals) const;
 
   std::uint64_t own_bytes() const {
     return regular_ ? sizeof(Net) : sizeof(Patch<S>) + irregular_->points.capacity() * sizeof(Vec3);
@@ -78,7 +79,7 @@ class PatchNode {
   /// must not depend on whether its children are known already.
   static constexpr int tiny_level = 24;
 
-  std::unique_ptr<Children> split() const;
+  std::unique_ptr<Children> split(const BoxSpace& space) const;
 
   void place(const PatchNode& parent, int k) {
     origin_ = parent.to_root(D::to_parent(k, Parameter::Zero()));
@@ -146,7 +147,7 @@ class PatchNode {
 template <Scheme S>
 struct PatchNode<S>::Children {
   std::array<PatchNode, 4> nodes;
-  FourBoxes boxes;
+  EightBoxes boxes;  ///< the first four
 };
 
 template <Scheme S>
@@ -155,9 +156,9 @@ PatchNode<S>::~PatchNode() {
 }
 
 template <Scheme S>
-auto PatchNode<S>::children(TreeTotals& totals) const -> const Children& {
+auto PatchNode<S>::children(const BoxSpace& space, TreeTotals& totals) const -> const Children& {
   if (const Children* known = known_children()) return *known;
-  std::unique_ptr<Children> made = split();
+  std::unique_ptr<Children> made = split(space);
   Children* expected = nullptr;
   if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
   std::uint64_t bytes = sizeof(Children);
@@ -168,7 +169,7 @@ auto PatchNode<S>::children(TreeTotals& totals) const -> const Children& {
 }
 
 template <Scheme S>
-auto PatchNode<S>::split() const -> std::unique_ptr<Children> {
+auto PatchNode<S>::split(const BoxSpace& space) const -> std::unique_ptr<Children> {
   auto children = std::make_unique<Children>();
   std::array<Regular, 4> quarters;
   if (is_regular()) quarters = regular_->template bezier<Regular>().split();
@@ -181,7 +182,7 @@ auto PatchNode<S>::split() const -> std::unique_ptr<Children> {
     } else {
       child.set(irregular_->child(static_cast<int>(k)));
     }
-    children->boxes.set(k, child.box_);
+    children->boxes.set(k, {child.box_, space});
   }
   return children;
 }

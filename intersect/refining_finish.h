@@ -48,7 +48,8 @@ class RefiningFinish {
     return across <= 2 * error_ && box.upper.z() - box.lower.z() <= 16 * error_;
   }
   /// Halving further gives no other parameters. Near the corner (0, 0) there is no end to halving, and there must not
-  /// be: around an irregular vertex a cell shrinks by the subdominant eigenvalue, which for many faces is well above 1/2.
+  /// be: around an irregular vertex a cell shrinks by the subdominant eigenvalue, which for many faces is well above
+  /// 1/2.
   static bool is_one_parameter(const Parameter& origin, double scale) {
     return origin + Parameter::Constant(0.5 * scale) == origin;
   }

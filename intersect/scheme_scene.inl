@@ -55,15 +55,34 @@ class SchemeScene final : public Scene::Implementation {
     check(ray);
     RayCounters counters;
     const auto answer = query(counters);
-    Statistics& local = counters_.local();
+    Statistics& local = own_counters();
     counters.add_to(local);
     ++local.rays;
     local.hits += static_cast<bool>(answer);
     return answer;
   }
 
+  /// This thread's counters. A thread asks one scene many times in a row, so it remembers its last answer: looking them
+  /// up is a twentieth of a ray that misses.
+  Statistics& own_counters() const {
+    thread_local std::uint64_t last_scene = 0;
+    thread_local Statistics* last = nullptr;
+    if (last_scene != serial_) {
+      last = &counters_.local();
+      last_scene = serial_;
+    }
+    return *last;
+  }
+
+  /// A number that no other scene of this type ever has; 0 is none's.
+  static std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+  }
+
   SchemeSurface<S> surface_;
   ShaoLin<S, ExactFinish> shaolin_;
+  std::uint64_t serial_ = next_serial();
   mutable tbb::enumerable_thread_specific<Statistics> counters_;
 };
 

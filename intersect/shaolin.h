@@ -46,12 +46,17 @@ class ShaoLin {
   using Node = PatchNode<S>;
   using Regular = RegularPatch<S::face_kind>;
 
-  /// A start patch: the patch of a face, or of an n-gon's corner, and the normal of its plane TP; made when a ray first
-  /// reaches its box.
+  /// A start patch: the patch of a face, or of an n-gon's corner, its own box, which is tighter than the face's in the
+  /// hierarchy, and the normal of its plane TP; made when a ray first reaches the face's box.
   struct StartPatch {
+    SceneBox box;
     Node root;
     Vec3 normal;
-    FourBoxes box{};  ///< the root's, in the first place
+
+    StartPatch(Patch<S> patch, int level, const Vec3& plane_normal, const BoxSpace& space, TreeTotals& totals)
+        : box({}, space), root(std::move(patch), level, space, totals), normal(plane_normal) {
+      box = SceneBox(root.box(), space);
+    }
   };
 
   /// What a leaf of the hierarchy stands for.
@@ -69,12 +74,14 @@ class ShaoLin {
 
   /// A ray on its way through one start patch.
   struct Search {
-    Search(const TraversalRay& along, const Vec3& normal, double horizon, RayCounters& count)
-        : ray(along), plane_normal(normal), far(horizon), counters(count) {}
+    Search(const TraversalRay& along, const BoxRay& among, const Vec3& normal, double horizon, RayCounters& count)
+        : ray(along), box_ray(among), plane_normal(normal), far(horizon), counters(count) {}
 
     const TraversalRay& ray;
+    const BoxRay& box_ray;
     const Vec3& plane_normal;
     double far;
+    float box_far = box_ray.local(far);
     RayCounters& counters;
     const Node* found = nullptr;
     PatchHit hit;
@@ -90,13 +97,18 @@ class ShaoLin {
       found = &node;
       hit = nearest;
       far = std::min(far, nearest.distance);
+      box_far = box_ray.local(far);
     }
 
    private:
     std::optional<RayFrame> frame_;
   };
 
-  const StartPatch& start_patch(int primitive) const;
+  const StartPatch& start_patch(int primitive) const {
+    const StartPatch* known = start_patches_[static_cast<std::size_t>(primitive)].load(std::memory_order_acquire);
+    return known ? *known : make_start_patch(primitive);
+  }
+  const StartPatch& make_start_patch(int primitive) const;
   Vec3 plane_normal(const Patch<S>& patch) const;
   template <Query query>
   void descend(const Node& node, Search& search) const;
@@ -157,17 +169,14 @@ Vec3 ShaoLin<S, Finish>::plane_normal(const Patch<S>& patch) const {
 }
 
 template <Scheme S, template <class> class Finish>
-auto ShaoLin<S, Finish>::start_patch(int primitive) const -> const StartPatch& {
-  std::atomic<StartPatch*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
-  if (const StartPatch* known = slot.load(std::memory_order_acquire)) return *known;
-
+auto ShaoLin<S, Finish>::make_start_patch(int primitive) const -> const StartPatch& {
   const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
   Patch<S> patch = surface_.patch(face, sub);
   const Vec3 normal = plane_normal(patch);
   TreeTotals made_totals;  // counted if no other thread is first
-  std::unique_ptr<StartPatch> made(
-      new StartPatch{Node(std::move(patch), surface_.splits_by_corner(face), made_totals), normal});
-  made->box.set(0, made->root.box());
+  auto made = std::make_unique<StartPatch>(std::move(patch), surface_.splits_by_corner(face), normal, bvh_.space(),
+                                           made_totals);
+  std::atomic<StartPatch*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
   StartPatch* expected = nullptr;
   if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
   totals_.bytes += made_totals.bytes + sizeof(StartPatch) + made->root.own_bytes();
@@ -180,19 +189,22 @@ template <Scheme S, template <class> class Finish>
 template <Query query>
 auto ShaoLin<S, Finish>::search(const TraversalRay& ray, RayCounters& counters) const -> Found {
   Found best;
+  const std::optional<BoxRay> box_ray = bvh_.enter(ray);
+  if (!box_ray) return best;
   double far = ray.far;
+  float box_far = box_ray->local(far);
   bvh_.traverse(
-      ray, [&] { return far; },
-      [&](int primitive, double) {
+      *box_ray, [&] { return box_far; },
+      [&](int primitive) {
         const StartPatch& start = start_patch(primitive);
-        // The tree's own box pays only where it saves a finish: otherwise its children's boxes come next.
-        if (start.root.is_leaf() && BoxOrder(start.box, ray, far).count() == 0) return false;
-        Search search(ray, start.normal, far, counters);
+        if (!box_ray->meets(start.box, box_far)) return false;
+        Search search(ray, *box_ray, start.normal, far, counters);
         descend<query>(start.root, search);
         if (!search.found) return false;
         const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
         best = {search.found, search.hit, face, sub};
-        far = std::min(far, best.hit.distance);
+        far = search.far;
+        box_far = search.box_far;
         return query == Query::any;
       });
   return best;
@@ -262,11 +274,11 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
     if (node.is_tiny() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
         high.z() - low.z() <= 64 * error)
       return finish_irregular(node, hull, search);
-    children = &node.children(totals_);
+    children = &node.children(bvh_.space(), totals_);
   }
 
-  const BoxOrder shadow_list(children->boxes, search.ray, search.far);
-  for (int i = 0; i < shadow_list.count() && shadow_list.distance(i) <= search.far; ++i) {
+  const BoxOrder shadow_list(children->boxes, search.box_ray, search.box_far);
+  for (std::size_t i = 0; i < shadow_list.count() && shadow_list.distance(i) <= search.box_far; ++i) {
     descend<query>(children->nodes[shadow_list.box(i)], search);
     if (query == Query::any && search.found) return;
   }

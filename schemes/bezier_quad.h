@@ -14,6 +14,7 @@ struct BezierQuad {
   static constexpr int size = 16;
   static constexpr int degree = 3;
   static constexpr int spline_size = 16;
+  static constexpr std::array<std::size_t, 4> corners{0, 3, 15, 12};
   std::array<Vec3, size> b;
 
   /// From the 4 x 4 control points of a uniform bicubic B-spline, p[4 j + i], whose patch lies over the middle square:

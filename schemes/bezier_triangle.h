@@ -16,6 +16,7 @@ struct BezierTriangle {
   static constexpr int degree = 4;
   static constexpr int size = 15;
   static constexpr int spline_size = 12;
+  static constexpr std::array<std::size_t, 3> corners{0, 4, 14};
   std::array<Vec3, size> b;
 
   /// A net of degree n is packed by rows of constant j: n + 1 points, n points, ... 1 point.

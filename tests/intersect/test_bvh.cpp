@@ -1,4 +1,5 @@
-// The hierarchy leaves out no box that a ray meets: against a slow test of every box, in extended precision.
+// The hierarchy leaves out no box that a ray meets, and visits few that it misses: against a slow test of every box, in
+// extended precision.
 #include "intersect/bvh.h"
 
 #include <set>
@@ -35,9 +36,11 @@ bool meets(const Box& box, const TraversalRay& ray, double far, long double marg
 /// Which primitives are visited, each at most once.
 std::set<int> visited(const Bvh& bvh, const TraversalRay& ray, double far) {
   std::set<int> result;
+  const std::optional<BoxRay> box_ray = bvh.enter(ray);
+  if (!box_ray) return result;
   bvh.traverse(
-      ray, [&] { return far; },
-      [&](int primitive, double) {
+      *box_ray, [&, local = box_ray->local(far)] { return local; },
+      [&](int primitive) {
         CHECK(result.insert(primitive).second);
         return false;
       });
@@ -48,15 +51,14 @@ std::set<int> visited(const Bvh& bvh, const TraversalRay& ray, double far) {
 int check_ray(const std::vector<Box>& boxes, const Bvh& bvh, const Ray& given) {
   const TraversalRay ray(given);
   const std::set<int> found = visited(bvh, ray, ray.far);
-  // Three roundings and 4 u of slack per slab end, of coordinates and origins up to `size`.
-  double size = given.origin.cwiseAbs().maxCoeff();
-  if (!boxes.empty()) size += bvh.bounds().largest_coordinate();
+  // Some roundings of single precision, of the scene's extent.
+  const double size = boxes.empty() ? 0 : (bvh.bounds().upper - bvh.bounds().lower).maxCoeff();
   int met = 0, lost = 0, surplus = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const bool is_found = found.contains(static_cast<int>(i)), is_met = meets(boxes[i], ray, ray.far, 0);
     met += is_met;
     lost += is_met && !is_found;
-    surplus += is_found && !meets(boxes[i], ray, ray.far, 1e-14L * size);
+    surplus += is_found && !meets(boxes[i], ray, ray.far, 1e-6L * size);
   }
   CAPTURE(boxes.size(), given.origin.transpose(), given.direction.transpose(), given.tmin, given.tmax);
   CHECK(lost == 0);
@@ -176,31 +178,31 @@ TEST_CASE("A skewed hierarchy is traversed to its end", "[intersect][bvh]") {
   for (int i = 0; i < 900; ++i) boxes.push_back(box_of({0, 0, 0}, {std::ldexp(1, -i), 1, 1}));
   const Bvh bvh(boxes);
   CHECK(check_ray(boxes, bvh, {{0, 0.5, -1}, {0, 0, 1}}) == 900);
-  CHECK(check_ray(boxes, bvh, {{0x1p-500, 0.5, -1}, {0, 0, 1}}) == 501);
+  CHECK(check_ray(boxes, bvh, {{0x1p-15, 0.5, -1}, {0, 0, 1}}) == 16);
 }
 
 TEST_CASE("Traversal stops when told, and leaves out what a shrinking far excludes", "[intersect][bvh]") {
   std::vector<Box> boxes;
   for (int i = 0; i < 100; ++i) boxes.push_back(box_of({0, 0, 2.0 * i}, {1, 1, 2.0 * i + 1}));
   const Bvh bvh(boxes);
-  const TraversalRay ray({{0.5, 0.5, -1}, {0, 0, 1}});
+  const std::optional<BoxRay> ray = bvh.enter(TraversalRay({{0.5, 0.5, -1}, {0, 0, 1}}));
+  REQUIRE(ray);
   int visits = 0, least = 100;
-  double far = infinity;
+  float far = ray->local(infinity);
   bvh.traverse(
-      ray, [&] { return far; },
-      [&](int primitive, double entry) {
+      *ray, [&] { return far; },
+      [&](int primitive) {
         ++visits;
         least = std::min(least, primitive);
-        CHECK(std::abs(entry - (2 * primitive + 1)) < 1e-12);
-        far = std::min(far, entry + 0.5);
+        far = std::min(far, ray->local(2 * primitive + 1.5));
         return false;
       });
   CHECK(least == 0);
   CHECK(visits == 1);  // disjoint boxes in a row: the nearest comes first
   visits = 0;
   bvh.traverse(
-      ray, [] { return infinity; },
-      [&](int, double) {
+      *ray, [&] { return ray->local(infinity); },
+      [&](int) {
         ++visits;
         return visits == 3;
       });

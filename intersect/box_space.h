@@ -1,0 +1,134 @@
+#pragma once
+/// Many boxes against one ray, in single precision, rounded outward.
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "box.h"
+#include "eight.h"
+
+namespace shaolin {
+
+/// The coordinates that a scene's boxes are tested in: about the scene's middle, in units of about half its extent, so
+/// that single precision resolves them wherever the scene is and whatever its size.
+struct BoxSpace {
+  Vec3 centre = Vec3::Zero();
+  double scale = 1;  ///< a power of two
+
+  BoxSpace() = default;
+  explicit BoxSpace(const Box& scene);
+
+  Vec3 operator()(const Vec3& point) const { return scale * (point - centre); }
+};
+
+/// A box in a scene's coordinates. A bound b is moved outward by 4 |b| v, with v = 2^-24, and rounded outward: what a
+/// ray's test costs in roundings of it (see BoxRay).
+struct SceneBox {
+  float bounds[2][3];  ///< [lower, upper][axis]
+
+  SceneBox(const Box& box, const BoxSpace& space);
+};
+
+/// Eight boxes side by side, so that one pass of vector instructions tests them all.
+struct alignas(32) EightBoxes {
+  float bounds[2][3][8];  ///< [lower, upper][axis][box]
+
+  /// Empty boxes; no ray meets one.
+  EightBoxes();
+  void set(std::size_t i, const SceneBox& box) {
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t axis = 0; axis < 3; ++axis) bounds[side][axis][i] = box.bounds[side][axis];
+  }
+};
+
+/// A ray in a scene's coordinates, from a start near the scene, in single precision.
+///
+/// A plane x = b is met at b inverse + c, c = -x inverse for a ray that starts at x. The factor, the product, c and the
+/// sum are each rounded once, which moves the distance by at most (3 |b| + 2 |x|) |inverse| v to first order. The boxes
+/// take care of the first term. For the second, entries are moved forward by 4 |x| |inverse| v, exits back; what is
+/// left over covers the double roundings of x, and 8 u of the origin those of a start far away. A direction component
+/// below 1e-18 moves the ray by far less over the few units to cross, so it is replaced by that: no infinity meets a
+/// zero.
+class BoxRay {
+ public:
+  BoxRay(const TraversalRay& ray, const BoxSpace& space, double start) : start_(start), scale_(space.scale) {
+    const Vec3 origin = space(ray.origin), at = origin + (start * space.scale) * ray.direction;
+    const double own_error = 8 * unit_roundoff * origin.cwiseAbs().maxCoeff();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      constexpr double least = 1e-18;
+      const double d = std::copysign(std::max(std::abs(ray.direction[i]), least), ray.direction[i]);
+      const double inverse = 1 / d, x = at[i];
+      const double pad = (0x1p-22 * std::abs(x) + own_error) * std::abs(inverse);
+      inverse_[axis] = static_cast<float>(inverse);
+      entry_[axis] = static_cast<float>(-x * inverse - pad);
+      exit_[axis] = static_cast<float>(-x * inverse + pad);
+      entered_at_[axis] = d < 0;
+    }
+  }
+
+  /// A distance along the ray in this ray's units, moved on by more than rounding may take from it.
+  float local(double distance) const {
+    const double value = (distance - start_) * scale_;
+    return static_cast<float>(value + 0x1p-22 * std::abs(value));
+  }
+
+  /// True if the ray meets the box between its start and `far`.
+  bool meets(const SceneBox& box, float far) const {
+    float entry = 0, exit = far;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t first = entered_at_[axis];
+      entry = std::max(entry, box.bounds[first][axis] * inverse_[axis] + entry_[axis]);
+      exit = std::min(exit, box.bounds[1 - first][axis] * inverse_[axis] + exit_[axis]);
+    }
+    return entry <= exit;
+  }
+
+  /// Those of eight boxes that the ray meets between its start and `far`, as bits; where it enters each.
+  unsigned meet(const EightBoxes& boxes, float far, std::array<float, 8>& entries) const {
+    Eight entry(0.0F), exit(far);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Eight inverse(inverse_[axis]);
+      const std::size_t first = entered_at_[axis];
+      entry = larger(Eight(boxes.bounds[first][axis]) * inverse + Eight(entry_[axis]), entry);
+      exit = smaller(Eight(boxes.bounds[1 - first][axis]) * inverse + Eight(exit_[axis]), exit);
+    }
+    entry.store(entries.data());
+    return at_most(entry, exit);
+  }
+
+ private:
+  double start_, scale_;
+  std::array<float, 3> inverse_, entry_, exit_;
+  std::array<std::uint8_t, 3> entered_at_;
+};
+
+/// Those of eight boxes that a ray meets, nearest first, with the distances (in the ray's units) at which it enters.
+class BoxOrder {
+ public:
+  BoxOrder(const EightBoxes& boxes, const BoxRay& ray, float far) {
+    alignas(32) std::array<float, 8> entries;
+    for (unsigned met = ray.meet(boxes, far, entries); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      std::size_t at = count_++;
+      for (; at > 0 && distance_[at - 1] > entries[i]; --at) {
+        distance_[at] = distance_[at - 1];
+        box_[at] = box_[at - 1];
+      }
+      distance_[at] = entries[i];
+      box_[at] = static_cast<std::uint8_t>(i);
+    }
+  }
+
+  std::size_t count() const { return count_; }
+  std::size_t box(std::size_t i) const { return box_[i]; }
+  float distance(std::size_t i) const { return distance_[i]; }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<std::uint8_t, 8> box_;
+  std::array<float, 8> distance_;
+};
+
+}  // namespace shaolin
