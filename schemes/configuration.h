@@ -13,6 +13,7 @@
 #include "limit_bound.h"
 #include "limit_rows.h"
 #include "neighbourhood.h"
+#include "refinement.h"
 #include "regular_layout.h"
 #include "scheme.h"
 #include "split_program.h"

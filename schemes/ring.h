@@ -1,5 +1,6 @@
 #pragma once
 /// The topology around a vertex and around a face: what masks and sharpness rules are chosen by.
+#include <algorithm>
 #include <vector>
 
 namespace shaolin {
@@ -23,6 +24,7 @@ class FaceSides {
   int vertex(int i) const { return vertices_[place(i)]; }
   int side(int i) const { return sides_[place(i)]; }
   int last_vertex() const { return vertex(size_ - 1); }
+  bool has_vertex(int wanted) const { return std::find(vertices_, vertices_ + size_, wanted) != vertices_ + size_; }
 
   /// The same face, seen from its corner i in [0, size).
   FaceSides turned(int i) const {

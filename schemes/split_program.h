@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "neighbourhood.h"
 #include "point_rules.h"
+#include "refinement.h"
 #include "ring_stencils.h"
 
 namespace shaolin {

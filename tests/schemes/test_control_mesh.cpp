@@ -45,7 +45,7 @@ TEST_CASE("What is odd but usable is a warning with file and line", "[schemes][c
 TEST_CASE("Neighbours that are wound against each other are named", "[schemes][control_mesh]") {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
   CHECK(parse(points + "f 1 2 3 4\nf 2 5 6 3\n").warnings.empty());
-  const ControlMesh opposed = parse(points + "f 1 2 3 4\nf 3 6 5 2\nf 2 3 1\n");
+  const ControlMesh opposed = parse(points + "v 1 0 1\nf 1 2 3 4\nf 3 6 5 2\nf 2 3 7\n");
   CHECK(opposed.warnings.empty());  // three faces at the edge: it is no matter of winding
   const ControlMesh pair = parse(points + "f 1 2 3 4\nf 2 3 6 5\n");
   REQUIRE(pair.warnings.size() == 1);

@@ -1,0 +1,228 @@
+#include "refinement.h"
+
+#include <algorithm>
+
+namespace shaolin {
+
+namespace {
+
+/// The face, seen from the vertex `first`.
+FaceSides seen_from_vertex(const FaceSides& face, int first) {
+  int at = 0;
+  while (face.vertex(at) != first) ++at;
+  return face.turned(at);
+}
+
+}  // namespace
+
+Refinement::Refinement(const Neighbourhood& parent, FaceKind kind, CreaseMethod creases)
+    : parent_(parent), kind_(kind), creases_(creases) {
+  for (const Ring& ring : parent.rings) {
+    rings_.try_emplace(ring.vertex, &ring);
+    for (const FaceSides& face : ring.faces) faces_.try_emplace(face.id(), face);
+  }
+}
+
+int Refinement::child_count() const { return kind_ == FaceKind::triangle ? 4 : parent_.face.size(); }
+
+int Refinement::vertex(const RefinedVertex& from) {
+  const auto [at, is_new] = numbers_.try_emplace(from, static_cast<int>(vertices_.size()));
+  if (is_new) vertices_.push_back(from);
+  return at->second;
+}
+
+/// The next level's face of that identifier; its lists are kept once.
+FaceSides Refinement::made(int id, std::initializer_list<int> vertices, std::initializer_list<int> sides) {
+  const auto [at, is_new] = children_.try_emplace(id);
+  if (is_new) {
+    std::array<int, 8>& lists = lists_.emplace_back();
+    std::copy(vertices.begin(), vertices.end(), lists.begin());
+    std::copy(sides.begin(), sides.end(), lists.begin() + 4);
+    at->second = FaceSides(id, lists.data(), lists.data() + 4, static_cast<int>(vertices.size()));
+  }
+  return at->second;
+}
+
+/// The child of `parent` at its corner in place `at`, seen from the refined vertex `first`.
+FaceSides Refinement::corner_face(const FaceSides& parent, int at, int first) {
+  const int size = parent.size(), leaving = parent.side(at), entering = parent.side((at + size - 1) % size);
+  const int corner = parent.vertex(at);
+  const int id = named(face_ids_, {0, parent.id(), leaving});
+  const auto child = [&] {
+    if (kind_ == FaceKind::quad)
+      return made(
+          id, {from_vertex(corner), from_edge(leaving), from_face(parent.id()), from_edge(entering)},
+          {half(leaving, corner), inner(parent.id(), leaving), inner(parent.id(), entering), half(entering, corner)});
+    return made(id, {from_vertex(corner), from_edge(leaving), from_edge(entering)},
+                {half(leaving, corner), inner(parent.id(), parent.side((at + 1) % 3)), half(entering, corner)});
+  };
+  return seen_from_vertex(child(), first);
+}
+
+/// The middle child of a triangle, seen from the refined vertex `first`. The edge between the midpoints of two sides
+/// runs along the third.
+FaceSides Refinement::middle_face(const FaceSides& parent, int first) {
+  const int id = parent.id(), a = parent.side(0), b = parent.side(1), c = parent.side(2);
+  const FaceSides child = made(named(face_ids_, {1, id, 0}), {from_edge(b), from_edge(c), from_edge(a)},
+                               {inner(id, a), inner(id, b), inner(id, c)});
+  return seen_from_vertex(child, first);
+}
+
+FaceSides Refinement::child_face(int k) {
+  const FaceSides& face = parent_.face;
+  if (kind_ == FaceKind::triangle && k == 3) return middle_face(face, from_edge(face.side(1)));
+  const bool keeps_orientation = kind_ == FaceKind::triangle || face.size() == 4;
+  const FaceSides child = corner_face(face, k, from_vertex(face.vertex(k)));
+  return keeps_orientation ? child.turned((child.size() - k) % child.size()) : child;
+}
+
+Neighbourhood Refinement::child(int k, int radius) {
+  // A vertex that the face repeats has a ring for each of its corners.
+  if (k < parent_.face.size()) rings_[parent_.face.vertex(k)] = &parent_.rings[static_cast<std::size_t>(k)];
+  Neighbourhood result;
+  result.face = child_face(k);
+  std::vector<int> inner;
+  for (int i = 0; i < result.face.size(); ++i) inner.push_back(result.face.vertex(i));
+  for (std::size_t done = 0; radius > 0; --radius) {
+    const std::size_t end = inner.size();
+    for (; done < end; ++done) {
+      result.rings.push_back(ring(inner[done]));
+      if (radius == 1) continue;
+      for (const FaceSides& face : result.rings.back().faces)
+        for (int i = 0; i < face.size(); ++i)
+          if (std::find(inner.begin(), inner.end(), face.vertex(i)) == inner.end()) inner.push_back(face.vertex(i));
+    }
+  }
+  return result;
+}
+
+Ring Refinement::ring(int refined) {
+  const RefinedVertex from = vertices_[static_cast<std::size_t>(refined)];
+  switch (from.kind) {
+    case RefinedVertex::Kind::vertex:
+      return ring_of_vertex(from.id);
+    case RefinedVertex::Kind::edge:
+      return ring_of_edge(from.id);
+    default:
+      return ring_of_face(faces_.at(from.id));
+  }
+}
+
+/// The halves at a vertex of the edges around it.
+SemiSharpEdges Refinement::halves_around(int v) const {
+  SemiSharpEdges halves(creases_);
+  for (const Ring::Spoke& spoke : rings_.at(v)->spokes) halves.add(spoke.near_half);
+  return halves;
+}
+
+Ring Refinement::ring_of_vertex(int v) {
+  const Ring& parent = *rings_.at(v);
+  Ring result;
+  result.vertex = from_vertex(v);
+  result.closed = parent.closed;
+  result.sharpness = decayed(parent.sharpness);
+  result.cone = parent.cone;
+  const SemiSharpEdges here = halves_around(v);
+  for (const Ring::Spoke& spoke : parent.spokes) {
+    SemiSharpEdges there(creases_);  // the edge's two halves meet at its new vertex
+    there.add(spoke.near_half);
+    there.add(spoke.far_half);
+    result.spokes.push_back({from_edge(spoke.edge), half(spoke.edge, v), spoke.near_half, here.decayed(spoke.near_half),
+                             there.decayed(spoke.near_half)});
+  }
+  for (const FaceSides& face : parent.faces) result.faces.push_back(corner_face(face, 0, result.vertex));
+  return result;
+}
+
+/// The edge as a spoke that has the face itself beside it, if there is one; else at the end of a ring that was cut
+/// there, if there is one.
+Refinement::Place Refinement::place_of_edge(int edge) const {
+  Place place{nullptr, 0, nullptr, nullptr}, cut = place;
+  for (const Ring& ring : parent_.rings) {
+    for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
+      if (ring.spokes[i].edge != edge) continue;
+      place = {&ring, i, i < ring.faces.size() ? &ring.faces[i] : nullptr,
+               i > 0         ? &ring.faces[i - 1]
+               : ring.closed ? &ring.faces.back()
+                             : nullptr};
+      const auto is_face = [&](const FaceSides* side) { return side && side->id() == parent_.face.id(); };
+      if (is_face(place.left) || is_face(place.right)) return place;
+      if (!place.left || !place.right) cut = place;
+    }
+  }
+  return cut.ring ? cut : place;
+}
+
+/// Around an edge's new vertex: the two halves of the edge, and what each side's face contributes between them. A side
+/// beyond an infinitely sharp edge of the face itself is left out, unless it meets the face in another corner, too, for
+/// then it comes back into the second rings.
+Ring Refinement::ring_of_edge(int edge) {
+  Place place = place_of_edge(edge);
+  const Ring::Spoke& spoke = place.ring->spokes[place.spoke];
+  const int a = place.ring->vertex, b = spoke.end;
+  const auto meets_again = [&](const FaceSides* face) {
+    for (int i = 0; face && i < face->size(); ++i)
+      if (face->vertex(i) != a && face->vertex(i) != b && parent_.face.has_vertex(face->vertex(i))) return true;
+    return false;
+  };
+  const bool both_meet = meets_again(place.left) && meets_again(place.right);
+  if (is_infinite(spoke.sharpness) && !both_meet) {
+    if (place.left && place.left->id() == parent_.face.id()) {
+      place.right = nullptr;
+    } else if (place.right && place.right->id() == parent_.face.id()) {
+      place.left = nullptr;
+    }
+  }
+
+  Ring result;
+  result.vertex = from_edge(edge);
+  result.closed = place.left && place.right;
+  result.sharpness = a == b ? infinite_sharpness : 0;  // an edge between equal vertices is a point
+  SemiSharpEdges here(creases_);
+  here.add(spoke.near_half);
+  here.add(spoke.far_half);
+  const auto towards = [&](int end, float sharpness) -> Ring::Spoke {
+    const float far_half = is_semi_sharp(sharpness) ? halves_around(end).decayed(sharpness) : sharpness;
+    return {from_vertex(end), half(edge, end), sharpness, here.decayed(sharpness), far_half};
+  };
+  const Ring::Spoke towards_a = towards(a, spoke.near_half), towards_b = towards(b, spoke.far_half);
+  if (place.left) {
+    result.spokes.push_back(towards_b);
+    add_side(result, *place.left, 0);
+    if (!place.right) result.spokes.push_back(towards_a);
+  }
+  if (place.right) {
+    result.spokes.push_back(towards_a);
+    add_side(result, *place.right, place.right->size() - 1);
+    if (!place.left) result.spokes.push_back(towards_b);
+  }
+  return result;
+}
+
+/// The faces and inner spokes on the side of `face`, whose side in place `at` carries the ring's vertex: from the half
+/// towards the side's second vertex around to the half towards its first.
+void Refinement::add_side(Ring& ring, const FaceSides& face, int at) {
+  const int second = (at + 1) % face.size();
+  ring.faces.push_back(corner_face(face, second, ring.vertex));
+  if (kind_ == FaceKind::triangle) {
+    const int after = face.side(second), before = face.side((at + 2) % 3);
+    ring.spokes.push_back({from_edge(after), inner(face.id(), before), 0});
+    ring.faces.push_back(middle_face(face, ring.vertex));
+    ring.spokes.push_back({from_edge(before), inner(face.id(), after), 0});
+  } else {
+    ring.spokes.push_back({from_face(face.id()), inner(face.id(), face.side(at)), 0});
+  }
+  ring.faces.push_back(corner_face(face, at, ring.vertex));
+}
+
+Ring Refinement::ring_of_face(const FaceSides& face) {
+  Ring result;
+  result.vertex = from_face(face.id());
+  for (int k = 0; k < face.size(); ++k) {
+    result.spokes.push_back({from_edge(face.side(k)), inner(face.id(), face.side(k)), 0});
+    result.faces.push_back(corner_face(face, (k + 1) % face.size(), result.vertex));
+  }
+  return result;
+}
+
+}  // namespace shaolin
