@@ -42,7 +42,8 @@ struct alignas(32) EightBoxes {
   }
 };
 
-/// A ray in a scene's coordinates, from a start near the scene, in single precision.
+/// A ray in a scene's coordinates, from a start near the scene on, in single precision; on both sides of its origin if
+/// there is no start.
 ///
 /// A plane x = b is met at b inverse + c, c = -x inverse for a ray that starts at x. The factor, the product, c and the
 /// sum are each rounded once, which moves the distance by at most (3 |b| + 2 |x|) |inverse| v to first order. The boxes
@@ -52,8 +53,12 @@ struct alignas(32) EightBoxes {
 /// zero.
 class BoxRay {
  public:
-  BoxRay(const TraversalRay& ray, const BoxSpace& space, double start) : start_(start), scale_(space.scale) {
-    const Vec3 origin = space(ray.origin), at = origin + (start * space.scale) * ray.direction;
+  /// `start` is a distance along the ray, or -infinity.
+  BoxRay(const TraversalRay& ray, const BoxSpace& space, double start)
+      : start_(std::isfinite(start) ? start : 0),
+        scale_(space.scale),
+        begin_(std::isfinite(start) ? 0 : -std::numeric_limits<float>::infinity()) {
+    const Vec3 origin = space(ray.origin), at = origin + (start_ * space.scale) * ray.direction;
     const double own_error = 8 * unit_roundoff * origin.cwiseAbs().maxCoeff();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
@@ -76,7 +81,7 @@ class BoxRay {
 
   /// True if the ray meets the box between its start and `far`.
   bool meets(const SceneBox& box, float far) const {
-    float entry = 0, exit = far;
+    float entry = begin_, exit = far;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t first = entered_at_[axis];
       entry = std::max(entry, box.bounds[first][axis] * inverse_[axis] + entry_[axis]);
@@ -87,7 +92,7 @@ class BoxRay {
 
   /// Those of eight boxes that the ray meets between its start and `far`, as bits; where it enters each.
   unsigned meet(const EightBoxes& boxes, float far, std::array<float, 8>& entries) const {
-    Eight entry(0.0F), exit(far);
+    Eight entry(begin_), exit(far);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Eight inverse(inverse_[axis]);
       const std::size_t first = entered_at_[axis];
@@ -100,6 +105,7 @@ class BoxRay {
 
  private:
   double start_, scale_;
+  float begin_;
   std::array<float, 3> inverse_, entry_, exit_;
   std::array<std::uint8_t, 3> entered_at_;
 };

@@ -187,8 +187,7 @@ Bvh::Bvh(const std::vector<Box>& boxes) : space_(finite_bounds(boxes)) {
 std::optional<BoxRay> Bvh::enter(const TraversalRay& ray) const {
   const std::optional<double> entry = entry_distance(bounds_, ray, ray.far);
   if (!entry) return {};
-  const double start = std::max(*entry, ray.near);
-  return BoxRay(ray, space_, std::isfinite(start) ? start : 0);  // 0: neither the bounds nor the ray begin
+  return BoxRay(ray, space_, std::max(*entry, ray.near));
 }
 
 }  // namespace shaolin

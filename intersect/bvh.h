@@ -60,7 +60,7 @@ void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
     stack = large.data();
   }
   Entry* top = stack;
-  *top++ = {0, 0};
+  *top++ = {0, -std::numeric_limits<float>::infinity()};
   alignas(32) std::array<float, width> entries;
   while (top != stack) {
     const Entry entry = *--top;

@@ -134,6 +134,22 @@ TEST_CASE("Boxes far outside the scene's bounds, and boxes without bounds, are m
   CHECK(lost == 0);
 }
 
+TEST_CASE("A line without a start meets boxes on both sides of its origin", "[intersect][box]") {
+  Box scene;
+  scene.add(Vec3(-1, -1, -1));
+  scene.add(Vec3(1, 1, 1));
+  const BoxSpace space(scene);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const BoxRay line(TraversalRay({{0, 0, 0}, {1, 0.25, 0}, -infinity, infinity}), space, -infinity);
+  const auto meets = [&](const Vec3& middle) {
+    const Vec3 half = Vec3::Constant(0.1);
+    return line.meets({{middle - half, middle + half}, space}, line.local(infinity));
+  };
+  CHECK(meets({0.8, 0.2, 0}));
+  CHECK(meets({-0.8, -0.2, 0}));
+  CHECK(!meets({0.8, -0.2, 0}));
+}
+
 TEST_CASE("Empty places of eight are met by no ray", "[intersect][box]") {
   Random random(4);
   std::size_t met = 0;
