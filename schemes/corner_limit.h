@@ -2,16 +2,11 @@
 /// The limit at a patch's corner by masks.
 #include <optional>
 
+#include "limit_rows.h"
 #include "patch.h"
 #include "sharpness.h"
 
 namespace shaolin {
-
-/// Position and, where the surface has one, the unit normal at a corner.
-struct LimitAtCorner {
-  Vec3 position;
-  std::optional<Vec3> normal;
-};
 
 namespace detail {
 
@@ -68,14 +63,7 @@ std::optional<LimitAtCorner> derived_limit(const Patch<S>& patch, int k) {
   if (patch.points.size() > most_points) return limit_by_refinement(patch, k);
   const std::optional<LimitRows>& rows = patch.configuration->derived_limit(k);
   if (!rows) return {};
-  Eigen::Matrix<double, 3, Eigen::Dynamic> points(3, patch.points.size());
-  for (std::size_t i = 0; i < patch.points.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = patch.points[i];
-  LimitAtCorner limit{points * rows->position, {}};
-  if (rows->tangents) {
-    const Eigen::Matrix<double, 3, 2> tangents = points * *rows->tangents;
-    limit.normal = tangents.col(0).cross(tangents.col(1)).normalized();
-  }
-  return limit;
+  return rows->at(patch.points);
 }
 
 }  // namespace detail

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "corner_limit.h"
+#include "whitening.h"
 
 namespace shaolin {
 
@@ -70,21 +69,11 @@ Vec3 one_sided_normal(Patch<S> patch, int k) {
   for (int level = 0; level < levels; ++level) {
     patch = patch.child(k);
     const Vec3 corner = patch.points[static_cast<std::size_t>(k)];
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    for (Vec3& point : patch.points) {
-      point -= corner;
-      moments += point * point.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
-    // An axis shorter than rounding makes the others is none: nothing there is worth stretching.
-    const double longest = axes.eigenvalues().z();
-    if (!(longest > 0)) break;
-    const Vec3 extents =
-        axes.eigenvalues().unaryExpr([&](double e) { return std::sqrt(e > 1e-26 * longest ? e : longest); });
-    const Eigen::Matrix3d whiten =
-        axes.eigenvectors() * extents.cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
-    for (Vec3& point : patch.points) point = whiten * point;
-    to_whitened = whiten * to_whitened;
+    for (Vec3& point : patch.points) point -= corner;
+    const std::optional<Eigen::Matrix3d> whiten = whitening(patch.points);
+    if (!whiten) break;
+    for (Vec3& point : patch.points) point = *whiten * point;
+    to_whitened = *whiten * to_whitened;
     to_whitened /= to_whitened.cwiseAbs().maxCoeff();
   }
   const Vec3 normal = evaluate(std::move(patch), Domain<S::face_kind>::centre(), false).normal;

@@ -65,6 +65,17 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& matrix, int count) {
   return rotation.rightCols(count);
 }
 
+LimitAtCorner LimitRows::at(std::span<const Vec3> points) const {
+  const auto sum = [&](const auto& mask) {
+    Vec3 total = Vec3::Zero();
+    for (std::size_t i = 0; i < points.size(); ++i) total += mask[static_cast<Eigen::Index>(i)] * points[i];
+    return total;
+  };
+  LimitAtCorner limit{sum(position), {}};
+  if (tangents) limit.normal = sum(tangents->col(0)).cross(sum(tangents->col(1))).normalized();
+  return limit;
+}
+
 std::optional<LimitRows> limit_rows(const Eigen::MatrixXd& matrix, const Ring& ring) {
   const std::vector<std::complex<double>> values = eigenvalues(matrix);
   if (values.empty() || std::abs(values[0] - 1.0) > same) return {};

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <complex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ring.h"
 #include "split_program.h"
+#include "vec3.h"
 
 namespace shaolin {
 
@@ -21,11 +23,20 @@ std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 /// that nullity. By a pivoted QR decomposition of the transpose, whose last columns are orthogonal to all rows. O(n^3).
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& matrix, int count);
 
+/// Position and, where the surface has one, the unit normal at a corner.
+struct LimitAtCorner {
+  Vec3 position;
+  std::optional<Vec3> normal;
+};
+
 /// Masks over the points that the matrix stands for: the limit position, and two tangents if the surface has a tangent
 /// plane there. Their cross product is the outward normal times a positive factor.
 struct LimitRows {
   Eigen::VectorXd position;
   std::optional<Eigen::Matrix<double, Eigen::Dynamic, 2>> tangents;
+
+  /// The masks' sums over these points, as many as there are rows.
+  LimitAtCorner at(std::span<const Vec3> points) const;
 };
 
 /// The left eigenvector of eigenvalue 1, and those of the next two eigenvalues if these are real, positive and larger

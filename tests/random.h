@@ -8,7 +8,8 @@
 
 namespace shaolin {
 
-/// The standard fixes the engine's sequence but not that of its distributions: these are our own.
+/// The standard fixes the engine's sequence but not that of its distributions: these are our own. Nor does it fix the
+/// order of a call's arguments or of the factors of a product: draw twice in braces or in two statements.
 class Random {
  public:
   explicit Random(std::uint64_t seed = 1) : engine_(seed) {}

@@ -12,7 +12,8 @@ namespace shaolin {
 inline Ray random_ray(const Box& box, Random& random) {
   const Vec3 size = box.upper - box.lower;
   const Vec3 target = box.centre() + 0.5 * size.cwiseProduct(random.point());
-  const Vec3 origin = box.centre() + size.norm() * random.uniform(0.6, 3) * random.direction();
+  const double distance = size.norm() * random.uniform(0.6, 3);
+  const Vec3 origin = box.centre() + distance * random.direction();
   return {origin, target - origin, 0, std::numeric_limits<double>::infinity()};
 }
 

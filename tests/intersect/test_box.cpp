@@ -68,8 +68,10 @@ TEST_CASE("Boxes of any size are met where a slow test says so", "[intersect][bo
   for (int i = 0; i < 200'000; ++i) {
     // Sizes over 200 binary orders, with the origin at a distance of their own order.
     const double size = std::exp2(random.uniform(-100, 100));
-    const TraversalRay ray(Ray{size * random.uniform(0, 4) * random.point(), random.direction()});
-    tally.ask(between(size * random.point(), size * random.point()), ray, ray.far);
+    const double distance = size * random.uniform(0, 4);
+    const TraversalRay ray(Ray{distance * random.point(), random.direction()});
+    const Vec3 corner = size * random.point();
+    tally.ask(between(corner, size * random.point()), ray, ray.far);
   }
   tally.check();
   CHECK(tally.met > 5'000);

@@ -91,7 +91,8 @@ TEST_CASE("A scene's place, size and distance lose no box", "[intersect][box]") 
   Tally tally;
   for (int i = 0; i < 60'000; ++i) {
     const double size = std::exp2(random.uniform(-100, 100));
-    const Vec3 place = size * std::exp2(random.uniform(0, 30)) * random.point();
+    const double away = size * std::exp2(random.uniform(0, 30));
+    const Vec3 place = away * random.point();
     std::array<Box, 8> boxes = round_boxes(random);
     for (Box& box : boxes) box = {place + size * box.lower, place + size * box.upper};
     // Aimed at a box's corner or middle, from as far as a million scenes away.

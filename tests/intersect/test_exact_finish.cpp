@@ -101,7 +101,7 @@ std::optional<std::vector<double>> zeros(const Bezier& patch) {
 TEMPLATE_TEST_CASE("The finish meets planes where they are met", "[intersect][finish]", BezierQuad, BezierTriangle) {
   Random random(51);
   for (int i = 0; i < 500; ++i) {
-    Parameter at(random.uniform(), random.uniform());
+    Parameter at{random.uniform(), random.uniform()};
     const Vec3 du = random.point(), dv = random.point();
     if (std::abs(du.x() * dv.y() - du.y() * dv.x()) < 0.01) continue;
     if (!TestType::DomainType::contains(at)) at = Parameter(1, 1) - at;

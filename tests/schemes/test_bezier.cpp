@@ -22,7 +22,7 @@ Bezier random_patch(Random& random) {
 template <class Bezier>
 Parameter random_parameter(Random& random) {
   for (;;) {
-    const Parameter p(random.uniform(), random.uniform());
+    const Parameter p{random.uniform(), random.uniform()};
     if (Bezier::DomainType::contains(p)) return p;
   }
 }
@@ -121,7 +121,7 @@ TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier]
     const ChildParameter inside = D::to_child(p);
     REQUIRE(D::contains(inside.at));
     REQUIRE((D::to_parent(inside.child, inside.at) - p).norm() <= 0x1p-53);
-    const Parameter outside(random.uniform(-1, 2), random.uniform(-1, 2));
+    const Parameter outside{random.uniform(-1, 2), random.uniform(-1, 2)};
     const Parameter nearest = D::nearest(outside);
     REQUIRE(D::contains(nearest));
     // The projection's defining property: no point of the domain is nearer.

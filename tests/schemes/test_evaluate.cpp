@@ -16,7 +16,7 @@ namespace {
 template <Scheme S>
 Parameter random_parameter(Random& random) {
   for (;;) {
-    const Parameter p(random.uniform(), random.uniform());
+    const Parameter p{random.uniform(), random.uniform()};
     if (Domain<S::face_kind>::contains(p)) return p;
   }
 }
@@ -87,7 +87,7 @@ TEMPLATE_TEST_CASE("Derivatives are limits of differences", "[schemes][evaluate]
   for_patches_of_models<S>(40, [&](const SchemeSurface<S>& surface, int face, int sub) {
     // Inside one polynomial piece: a central difference of a polynomial this low errs by h^2 only.
     constexpr double h = 0x1p-12;
-    const Parameter at(0.25 + 0.03 * random.uniform() + 2 * h, 0.25 + 0.1 + 0.03 * random.uniform());
+    const Parameter at{0.25 + 0.03 * random.uniform() + 2 * h, 0.25 + 0.1 + 0.03 * random.uniform()};
     const auto sample = [&](double u, double v) { return *surface.evaluate({face, sub, at.x() + u, at.y() + v}); };
     const LimitSample s = sample(0, 0);
     REQUIRE(s.derivatives);

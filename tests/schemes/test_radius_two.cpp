@@ -100,7 +100,7 @@ void check_rays(int most_faces) {
       if (surface.triangular() && u + v > 1) u = 1 - u, v = 1 - v;
       const auto sample = surface.evaluate({face, random.index(surface.sub_count(face)), u, v});
       Ray ray;
-      ray.direction = Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5).normalized();
+      ray.direction = Vec3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5}.normalized();
       if (std::abs(ray.direction.dot(sample->normal)) < 0.05) continue;  // grazing rays: the distance is less certain
       ray.origin = sample->position - diagonal * ray.direction;
       const auto hit = scene.intersect(ray);

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -28,12 +27,7 @@ fs::path make_temporary(const fs::path& target, const fs::path& name) {
     fs::path candidate = target.parent_path() / target.stem();
     candidate += ".partial-" + std::to_string(i);
     candidate += target.extension();
-    // "x" creates the file or fails, in one step.
-    if (std::FILE* const file = std::fopen(candidate.c_str(), "wx")) {
-      std::fclose(file);
-      note_unfinished_file(candidate);
-      return candidate;
-    }
+    if (create_unfinished_file(candidate)) return candidate;
     if (errno != EEXIST) fail(name, std::generic_category().message(errno));
   }
   fail(name, "too many unfinished '.partial' files beside it");

@@ -8,9 +8,10 @@ namespace shaolin {
 /// started the process had ignored stay ignored.
 void remove_unfinished_files_when_stopped();
 
-/// Notes a file that is being written. The first eight at a time, with paths of up to 4095 bytes, are kept in mind: a
-/// signal handler cannot allocate.
-void note_unfinished_file(const std::string& path);
+/// Makes an empty file and notes it, in one step for any signal. False, with errno set, if that fails: EEXIST if the
+/// path is taken. The first eight files at a time, with paths of up to 4095 bytes, are kept in mind: a signal handler
+/// cannot allocate. Any thread may call.
+bool create_unfinished_file(const std::string& path);
 
 /// Forgets a noted file: it is finished, or gone.
 void forget_unfinished_file(const std::string& path);
