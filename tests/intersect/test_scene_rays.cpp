@@ -72,7 +72,7 @@ TEST_CASE("A line crosses a closed surface an even number of times, the same fro
     CAPTURE(model.name, model.scheme);
     const Scene scene(model.mesh, model.scheme);
     int crossed = 0;
-    for (const Ray& ray : random_rays(scene.bounds(), 300, 21)) {
+    for (const Ray& ray : random_rays(scene.bounds(), 600, 21)) {
       const double gap = 1e-9;  // in units of t; no two crossings of these random rays are as near
       const std::vector<double> there = crossings(scene, ray, gap);
       std::vector<double> back = crossings(scene, {ray.origin + 5 * ray.direction, -ray.direction, 0, infinity}, gap);
