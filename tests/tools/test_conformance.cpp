@@ -157,7 +157,13 @@ TEST_CASE("shaolin scheme lists, shows and checks", "[tools][conformance]") {
   CHECK(page.find("valence 12") != std::string::npos);
   CHECK(page.find("nan") == std::string::npos);
 
+  const test::Outcome few = folder.run({"scheme", "check", "loop", "--valence", "3"});
+  CHECK(few.status == 0);
+  CHECK(few.text.find("smooth of 3 faces") != std::string::npos);
+  CHECK(few.text.find("smooth of 4 faces") == std::string::npos);
+
   CHECK(folder.run({"scheme"}).status == 2);
+  CHECK(folder.run({"scheme", "check", "loop", "--valence", "2"}).status == 2);
   CHECK(folder.run({"scheme", "check", "doo-sabin"}).status == 2);
   folder.write("file", "");
   CHECK(folder.run({"scheme", "check", "loop", "--report", (folder / "file").string()}).status == 3);

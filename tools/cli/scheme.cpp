@@ -74,7 +74,7 @@ int scheme_check(const SchemeCheckOptions& options) {
   }
   if (!scheme.has_crease)
     std::printf("%s has no crease rules: the cubic B-spline curve's are used\n\n", scheme.name.c_str());
-  const ConformanceReport report = check_conformance(scheme.name, scheme.masks);
+  const ConformanceReport report = check_conformance(scheme.name, scheme.masks, options.most_faces);
   print_table(report);
   if (file) {
     std::ofstream stream(file->path());
@@ -104,6 +104,9 @@ void add_scheme(CLI::App& app, Command& command) {
   add_scheme_choice(*check, options->choice);
   check->add_option("--report", options->report, "Folder for a page with spectra and characteristic maps")
       ->type_name("DIR");
+  check->add_option("--valence", options->most_faces, "The highest valence to look at; time grows as its fourth power")
+      ->check(CLI::Range(3, 100))
+      ->capture_default_str();
   check->callback([options, &command] { command = [options] { return scheme_check(*options); }; });
 }
 

@@ -24,6 +24,7 @@ int scheme_show(const SchemeChoice& choice);
 struct SchemeCheckOptions {
   SchemeChoice choice;
   std::filesystem::path report;  ///< folder for NAME.html; empty: none
+  int most_faces = 40;           ///< around the smooth and dart vertices that are looked at; 3 or more
 };
 
 /// Runs the conformance kit and prints its table. Returns exit_check_failed if a check failed. Throws InputError for an

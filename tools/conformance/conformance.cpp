@@ -12,7 +12,7 @@ namespace shaolin {
 
 namespace {
 
-constexpr int most_faces = 40, most_sector_faces = 12;
+constexpr int most_sector_faces = 12;
 
 /// Points in a cube around the origin, from a fixed sequence.
 class Points {
@@ -60,7 +60,8 @@ class Kit {
   using D = Domain<kind>;
 
  public:
-  Kit(std::string name, const std::shared_ptr<const SchemeMasks>& masks) : scheme_(masks) {
+  Kit(std::string name, const std::shared_ptr<const SchemeMasks>& masks, int most_faces)
+      : scheme_(masks), most_faces_(most_faces) {
     report_.scheme = std::move(name);
     report_.face_kind = kind;
   }
@@ -97,9 +98,9 @@ class Kit {
 
   /// Calls visit(kind, faces) for every star that the kit looks at.
   template <class Visit>
-  static void each_star(Visit visit) {
+  void each_star(Visit visit) const {
     for (const StarKind star : {StarKind::smooth, StarKind::dart})
-      for (int n = 3; n <= most_faces; ++n) visit(star, n);
+      for (int n = 3; n <= most_faces_; ++n) visit(star, n);
     for (const StarKind star : {StarKind::crease, StarKind::corner})
       for (int k = 1; k <= most_sector_faces; ++k) visit(star, k);
   }
@@ -289,7 +290,7 @@ class Kit {
       return;
     }
     double least = std::numeric_limits<double>::infinity();
-    for (int n = 3; n <= most_faces; ++n) {
+    for (int n = 3; n <= most_faces_; ++n) {
       Star star(scheme_, StarKind::smooth, n);
       CharacteristicMap map = characteristic_map(star.stationary());
       if (map.least_jacobian < least) least = map.least_jacobian, check.subject = subject(StarKind::smooth, n);
@@ -427,6 +428,7 @@ class Kit {
   }
 
   S scheme_;
+  int most_faces_;
   Points points_;
   ConformanceReport report_;
 };
@@ -437,9 +439,10 @@ bool ConformanceReport::passed() const {
   return std::none_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.verdict == Verdict::fail; });
 }
 
-ConformanceReport check_conformance(const std::string& name, const std::shared_ptr<const SchemeMasks>& masks) {
-  return masks->face_kind() == FaceKind::triangle ? Kit<FaceKind::triangle>(name, masks).run()
-                                                  : Kit<FaceKind::quad>(name, masks).run();
+ConformanceReport check_conformance(const std::string& name, const std::shared_ptr<const SchemeMasks>& masks,
+                                    int most_faces) {
+  return masks->face_kind() == FaceKind::triangle ? Kit<FaceKind::triangle>(name, masks, most_faces).run()
+                                                  : Kit<FaceKind::quad>(name, masks, most_faces).run();
 }
 
 }  // namespace shaolin
