@@ -32,11 +32,12 @@ class Stencil {
 
 /// The part of a ring around one of its faces or spokes. A ring that infinitely sharp edges (or a boundary) do not cut
 /// is taken as it is. (One such edge alone ends in a dart, which does not cut; at a corner it does, for a mesh that is
-/// cut open along it has the same surface.) A sector of k faces between two of them is continued to valence 2 k by mirror images: laid out
-/// flat with the crease straight, a point beyond is the image of the point on this side in the crease, or 2 foot - p,
-/// where the foot of the perpendicular from p stands on the line from the vertex to its neighbour along the crease. At
-/// regular valence these are the phantom points that continue a spline beyond its boundary (see regular_layout.h); at
-/// any valence the images of a flat star close it, so a scheme that keeps planes keeps them here.
+/// cut open along it has the same surface.) A sector of k faces between two of them is continued to valence 2 k by
+/// mirror images: laid out flat with the crease straight, a point beyond is the image of the point on this side in the
+/// crease, or 2 foot - p, where the foot of the perpendicular from p stands on the line from the vertex to its
+/// neighbour along the crease. At regular valence these are the phantom points that continue a spline beyond its
+/// boundary (see regular_layout.h); at any valence the images of a flat star close it, so a scheme that keeps planes
+/// keeps them here.
 class ClosedRing {
  public:
   /// Around the spoke in that place; it must not be infinitely sharp.

@@ -140,8 +140,8 @@ class MeshCheck {
          line_of(places_.positions, static_cast<std::size_t>(first)));
   }
 
-  /// Edges of two faces that run along them in the same direction. Sides are put in order by the vertex that they leave,
-  /// by counting: a large mesh is not to wait for a sort.
+  /// Edges of two faces that run along them in the same direction. Sides are put in order by the vertex that they
+  /// leave, by counting: a large mesh is not to wait for a sort.
   void warn_about_windings() {
     struct Side {
       int to, face;
@@ -252,5 +252,16 @@ double ControlMesh::diagonal() const {
 void check(ControlMesh& mesh) { check(mesh, MeshPlaces{}); }
 
 void check(ControlMesh& mesh, const MeshPlaces& places) { MeshCheck(mesh, places).run(); }
+
+void check_faces(const ControlMesh& mesh, FaceKind kind, const MeshPlaces& places) {
+  if (kind != FaceKind::triangle) return;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const std::size_t corners = mesh.face(f).size();
+    if (corners == 3) continue;
+    throw InputError("face " + std::to_string(f) + " has " + std::to_string(corners) +
+                         " corners; a triangle scheme such as Loop expects triangles only",
+                     places.file, places.faces.empty() ? 0 : places.faces[static_cast<std::size_t>(f)]);
+  }
+}
 
 }  // namespace shaolin

@@ -8,8 +8,8 @@
 
 namespace shaolin {
 
-/// True if the masks of vertices with 3 up to so many neighbours, and of edges, have no negative weight. Masks of radius
-/// 2 are taken to have some: which are asked for depends on pairs of vertices.
+/// True if the masks of vertices with 3 up to so many neighbours, and of edges, have no negative weight. Masks of
+/// radius 2 are taken to have some: which are asked for depends on pairs of vertices.
 template <Scheme S>
 bool has_convex_masks(const Rules<S>& rules, int most_neighbours) {
   if (rules.radius() == 2) return false;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "control_mesh.h"
+#include "scheme.h"
 
 namespace shaolin {
 
@@ -20,5 +21,9 @@ struct MeshPlaces {
 
 /// check() whose messages and warnings carry file and line. A warning that the mesh has already is not repeated.
 void check(ControlMesh& mesh, const MeshPlaces& places);
+
+/// Throws InputError, with file and line where known, if a scheme that splits faces of this kind cannot split a face of
+/// the mesh: triangle schemes take triangles only, quad schemes any face. O(faces).
+void check_faces(const ControlMesh& mesh, FaceKind kind, const MeshPlaces& places = {});
 
 }  // namespace shaolin

@@ -65,6 +65,7 @@ class ObjReader {
     check(mesh_, places_);
     return std::move(mesh_);
   }
+  MeshPlaces& places() { return places_; }
 
  private:
   [[noreturn]] void fail(const std::string& message) const { throw InputError(message, places_.file, words_.line()); }
@@ -351,7 +352,16 @@ std::string tag_lines(const ControlMesh& mesh) {
 }  // namespace
 
 ControlMesh read_obj(const std::filesystem::path& file) {
-  return ObjReader(read_text_file(file), file.string()).read();
+  MeshPlaces places;
+  return read_obj(file, places);
+}
+
+ControlMesh read_obj(const std::filesystem::path& file, MeshPlaces& places) {
+  const std::string text = read_text_file(file);
+  ObjReader reader(text, file.string());
+  ControlMesh mesh = reader.read();
+  places = std::move(reader.places());
+  return mesh;
 }
 
 ControlMesh read_obj(std::istream& stream, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <iosfwd>
 
 #include "control_mesh.h"
+#include "mesh_places.h"
 
 namespace shaolin {
 
@@ -21,6 +22,9 @@ namespace shaolin {
 /// unreadable file, words where numbers belong, NaN or infinite coordinates, indices out of range, fewer than three
 /// corners, tags cut short, unknown tags, negative or NaN sharpness, an empty mesh. O(file size).
 ControlMesh read_obj(const std::filesystem::path& file);
+
+/// The same, and where everything stands in the file: for messages of later checks.
+ControlMesh read_obj(const std::filesystem::path& file, MeshPlaces& places);
 
 /// The same from a stream; `name` stands for the file in messages.
 ControlMesh read_obj(std::istream& stream, const std::string& name);

@@ -186,8 +186,8 @@ struct Rules {
   int radius() const { return radius_of(scheme); }
   CreaseMask crease() const { return crease_of(scheme); }
 
-  /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's. No scheme is asked for it where
-  /// neither rule of the transition has a use for it: a corner may have any number of neighbours.
+  /// The mask of a vertex that goes to the next level by the smooth rule, or the dart's. No scheme is asked for it
+  /// where neither rule of the transition has a use for it: a corner may have any number of neighbours.
   VertexMask vertex(int n, const VertexTransition& to, bool cone) const {
     if (!is_smooth_rule(to.parent) && !is_smooth_rule(to.child)) return {};
     if (to.parent == VertexRule::dart || to.child == VertexRule::dart) return dart_vertex_of(scheme, n);

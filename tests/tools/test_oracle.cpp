@@ -338,7 +338,8 @@ int levels_for(const ControlMesh& mesh) {
 }
 
 void compare_both_ways(const Model& model) {
-  const OpenSubdivOracle bfr(model.mesh, model.scheme), refined(model.mesh, model.scheme, {.zone = 0.3, .heavy_valence = 6});
+  const OpenSubdivOracle bfr(model.mesh, model.scheme),
+      refined(model.mesh, model.scheme, {.zone = 0.3, .heavy_valence = 6});
   std::mt19937 random(6);
   for (int i = 0; i < 300; ++i) {
     SurfaceParameter at = random_parameter(bfr, random);

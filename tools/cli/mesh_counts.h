@@ -15,7 +15,8 @@ struct MeshCounts {
   std::map<int, std::size_t> faces_by_size;
   std::map<int, std::size_t> vertices_by_valence;  ///< valence: number of edges; 0: isolated
 
-  std::size_t smooth = 0, conical = 0, dart = 0, crease = 0, corner = 0;  ///< vertices by kind; isolated ones are in none
+  std::size_t smooth = 0, conical = 0, dart = 0, crease = 0,
+              corner = 0;  ///< vertices by kind; isolated ones are in none
   std::size_t boundary_vertices = 0;
   std::size_t isolated_vertices = 0;
   /// Vertices whose valence the scheme's regular patches do not have: inside not 4 (Loop 6), at a boundary not 3

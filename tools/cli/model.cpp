@@ -41,7 +41,8 @@ CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file) {
 
 Model load_model(const ModelOptions& options) {
   Model model;
-  model.mesh = read_obj(options.file);
+  MeshPlaces places;
+  model.mesh = read_obj(options.file, places);
   if (!options.plugin.empty()) {
     LoadedPlugin plugin = load_plugin(options.plugin);
     model.scheme = std::move(plugin.name);
@@ -49,6 +50,8 @@ Model load_model(const ModelOptions& options) {
   } else {
     model.scheme = options.scheme.empty() ? default_scheme(model.mesh) : options.scheme;
   }
+  const FaceKind kind = (model.masks ? model.masks : builtin_masks(model.scheme))->face_kind();
+  check_faces(model.mesh, kind, places);
   print_warnings(model.mesh, 0);
   return model;
 }

@@ -95,7 +95,8 @@ void add_peers(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand(
       "peers", "Hold OpenSubdiv, CGAL and OpenMesh to the shapes that they claim to subdivide, each with its scheme");
   sub->add_option("MODEL", options->models, "Control meshes: OBJ files with OpenSubdiv's tag lines")->required();
-  sub->add_option("--plugin", options->plugins, "Shared libraries with schemes (see docs/schemes.md), whose code is run")
+  sub->add_option("--plugin", options->plugins,
+                  "Shared libraries with schemes (see docs/schemes.md), whose code is run")
       ->type_name("FILE");
   sub->callback([options, &command] { command = [options] { return peers(*options); }; });
 }

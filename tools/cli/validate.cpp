@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "intersect/scene.h"
-#include "schemes/errors.h"
 #include "schemes/builtin.h"
+#include "schemes/errors.h"
 #include "schemes/limit_surface.h"
 #include "tools/cli/output_file.h"
 #include "tools/cli/render_stats.h"
@@ -57,8 +57,7 @@ Validation check_model(const ValidateOptions& options) {
   result.diagonal = oracle->diagonal();
 
   const Samples defaults = by_opensubdiv ? by_opensubdiv_default : by_masks_default;
-  const auto parameters =
-      sample_parameters(*oracle, options.evaluations.value_or(defaults.evaluations), options.seed);
+  const auto parameters = sample_parameters(*oracle, options.evaluations.value_or(defaults.evaluations), options.seed);
   result.evaluations = check_evaluations(Evaluator::of(scene.surface()), *oracle, parameters);
   if (const std::size_t count = options.rays.value_or(defaults.rays); count > 0) {
     std::optional<DenseCheck> dense;
@@ -92,7 +91,8 @@ int validate(const ValidateOptions& options) {
 void add_validate(CLI::App& app, Command& command) {
   const auto options = std::make_shared<ValidateOptions>();
   CLI::App* sub = app.add_subcommand(
-      "validate", "Hold evaluations and rays against OpenSubdiv's surface, or, for a scheme that it does not have, against plain "
+      "validate",
+      "Hold evaluations and rays against OpenSubdiv's surface, or, for a scheme that it does not have, against plain "
       "refinement by the masks; exits with 1 on any disagreement");
   add_model_options(*sub, options->model);
   sub->add_option("--rays", options->rays,

@@ -15,9 +15,9 @@ struct ValidateOptions {
   ModelOptions model;
   std::optional<std::size_t> rays;         ///< --rays; a tenth of that in addition is aimed at edges and vertices
   std::optional<std::size_t> evaluations;  ///< --evaluations
-  std::uint64_t seed = 1;           ///< --seed
-  std::filesystem::path report;     ///< --report; empty: none
-  int threads = 0;                  ///< --threads; 0: all
+  std::uint64_t seed = 1;                  ///< --seed
+  std::filesystem::path report;            ///< --report; empty: none
+  int threads = 0;                         ///< --threads; 0: all
 };
 
 /// Prints the table of figures, bars and verdicts to stdout and writes the report. Returns exit_done if every bar is

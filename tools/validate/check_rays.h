@@ -49,8 +49,8 @@ struct RayReport {
 /// Traces all rays in parallel, then checks them one after the other. A ray's missing hit counts as lost if the hit is
 /// certain: the eight rays moved sideways by 1e-10 diagonals hit the surface there, too. Then neither rounding nor the
 /// dense check's own tolerance of 1e-11 can have made it. What is less certain (at silhouettes and boundaries) counts
-/// as undecided. Without a dense check (null) hits are missed only where rays were aimed, and a hit is certain if the ray
-/// crosses the surface there by construction.
+/// as undecided. Without a dense check (null) hits are missed only where rays were aimed, and a hit is certain if the
+/// ray crosses the surface there by construction.
 RayReport check_rays(const Intersector& ours, const Oracle& oracle, const DenseCheck* dense,
                      std::span<const ProbeRay> rays);
 

@@ -24,8 +24,7 @@ constexpr double settled = bar::normal / 5;
 
 RootMesh root_of(const ControlMesh& mesh, const SchemeMasks& masks) {
   const bool triangular = masks.face_kind() == FaceKind::triangle;
-  const SubdivisionRules rules =
-      rules_of(mesh, triangular ? SchemeType::SCHEME_LOOP : SchemeType::SCHEME_CATMARK);
+  const SubdivisionRules rules = rules_of(mesh, triangular ? SchemeType::SCHEME_LOOP : SchemeType::SCHEME_CATMARK);
   return {mesh, rules, [&](const TaggedMesh& coarse) { return refine(coarse, rules, masks); }};
 }
 

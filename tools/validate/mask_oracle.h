@@ -8,8 +8,9 @@
 
 namespace shaolin {
 
-/// Around a parameter the mesh is cut out and refined (see mask_refinement.h) until the face that holds the parameter is
-/// a point. No limit masks, no bounds, no polynomials: slow, some 10 ms an evaluation, but there is little to be wrong.
+/// Around a parameter the mesh is cut out and refined (see mask_refinement.h) until the face that holds the parameter
+/// is a point. No limit masks, no bounds, no polynomials: slow, some 10 ms an evaluation, but there is little to be
+/// wrong.
 class MaskOracle final : public Oracle {
  public:
   /// Throws InputError for triangle masks over other faces, for conical vertices and for meshes that OpenSubdiv

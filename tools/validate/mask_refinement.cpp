@@ -39,9 +39,9 @@ class MaskStep {
   struct Fan {
     int vertex;
     bool closed;
-    std::vector<int> ends;       ///< the neighbours, counter-clockwise; one more than faces unless closed
+    std::vector<int> ends;        ///< the neighbours, counter-clockwise; one more than faces unless closed
     std::vector<Vec3> diagonals;  ///< per face
-    int from;                    ///< where masks count from
+    int from;                     ///< where masks count from
 
     int faces() const { return static_cast<int>(diagonals.size()); }
     int valence() const { return closed ? faces() : 2 * faces(); }
@@ -77,8 +77,8 @@ class MaskStep {
   std::vector<Vec3> face_points_;
 };
 
-/// Child i of a face begins at the child of corner i; on the face's own frame it is that child's vertex i, on an n-gon's
-/// its vertex 0. The next vertex is the outgoing edge's child.
+/// Child i of a face begins at the child of corner i; on the face's own frame it is that child's vertex i, on an
+/// n-gon's its vertex 0. The next vertex is the outgoing edge's child.
 int MaskStep::child_of_edge(int edge) const {
   const int face = coarse_.edge_faces[edge][0], i = coarse_.edge_face_slots[edge][0];
   const auto child = fine_.mesh.face_vertices[fine_.face_children[face][i]];
@@ -171,10 +171,9 @@ Vec3 MaskStep::by_ring_mask(const Fan& fan, const RingMask& mask) const {
   for (int i = 0; i < static_cast<int>(mask.diagonals.size()); ++i) {
     const int place = (fan.from + i) % n;
     const bool here = fan.closed || place < k;
-    sum.add(mask.diagonals[at(i)],
-            here ? fan.diagonals[at(place)]
-                 : mirrored(fan.diagonals[at(n - 1 - place)], (n - place - 0.5) * std::numbers::pi / k,
-                            std::numbers::sqrt2));
+    sum.add(mask.diagonals[at(i)], here ? fan.diagonals[at(place)]
+                                        : mirrored(fan.diagonals[at(n - 1 - place)],
+                                                   (n - place - 0.5) * std::numbers::pi / k, std::numbers::sqrt2));
   }
   return sum.value;
 }

@@ -83,7 +83,7 @@ class OpenSubdivOracle::Implementation {
   int face_corners() const { return rules_.face_size(); }
   std::array<int, 2> corner_position(int corner) const {
     return rules_.triangular() ? triangle_corners[static_cast<std::size_t>(corner)]
-                              : quad_corners[static_cast<std::size_t>(corner)];
+                               : quad_corners[static_cast<std::size_t>(corner)];
   }
   double distance(const Place& at, int corner) const;
   bool is_heavy(int vertex) const { return root_.vertex_faces.count(vertex) > options_.heavy_valence; }
@@ -108,7 +108,11 @@ class OpenSubdivOracle::Implementation {
 };
 
 OpenSubdivOracle::Implementation::Implementation(const RootMesh& base, const OracleOptions& options)
-    : base_(base), rules_(base.rules), root_(base.mesh), options_(options), wide_chains_(may_need_children(root_, rules_)) {}
+    : base_(base),
+      rules_(base.rules),
+      root_(base.mesh),
+      options_(options),
+      wide_chains_(may_need_children(root_, rules_)) {}
 
 /// In the parameter square; on triangles 1 - the corner's barycentric coordinate.
 double OpenSubdivOracle::Implementation::distance(const Place& at, int corner) const {
@@ -156,7 +160,8 @@ LimitSample OpenSubdivOracle::Implementation::at_corner(int face, int corner) {
 }
 
 /// After `level` steps the distance d 2^level lies in (1/2, 1]: in the corner's child, but not in that one's own.
-SurfaceValues OpenSubdivOracle::Implementation::by_chain(Chains& chains, const TaggedMesh& mesh, const Place& at, int corner) {
+SurfaceValues OpenSubdivOracle::Implementation::by_chain(Chains& chains, const TaggedMesh& mesh, const Place& at,
+                                                         int corner) {
   int exponent;
   const double mantissa = std::frexp(distance(at, corner), &exponent);
   const int level = -exponent + (mantissa == 0.5);

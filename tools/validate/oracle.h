@@ -26,8 +26,8 @@ class Oracle {
 
   /// True if samples carry derivatives (where the surface has them).
   virtual bool has_derivatives() const = 0;
-  /// Empty if the face has no limit surface. u and v are clamped to [0, 1]; so is u + v on triangles. The normal is zero
-  /// where the oracle has none to tell. Throws std::out_of_range for face or sub.
+  /// Empty if the face has no limit surface. u and v are clamped to [0, 1]; so is u + v on triangles. The normal is
+  /// zero where the oracle has none to tell. Throws std::out_of_range for face or sub.
   virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
 
  protected:

@@ -16,9 +16,10 @@ double farthest_from(const std::vector<Vec3>& points, std::vector<Vec3> others) 
   double farthest = 0;
   for (const Vec3& p : points) {
     double nearest = std::numeric_limits<double>::infinity();
-    const auto from = std::lower_bound(others.begin(), others.end(), p.x(),
-                                       [](const Vec3& q, double x) { return q.x() < x; });
-    for (auto q = from; q != others.end() && q->x() - p.x() <= nearest; ++q) nearest = std::min(nearest, (p - *q).norm());
+    const auto from =
+        std::lower_bound(others.begin(), others.end(), p.x(), [](const Vec3& q, double x) { return q.x() < x; });
+    for (auto q = from; q != others.end() && q->x() - p.x() <= nearest; ++q)
+      nearest = std::min(nearest, (p - *q).norm());
     for (auto q = from; q != others.begin() && p.x() - (q - 1)->x() <= nearest; --q)
       nearest = std::min(nearest, (p - *(q - 1)).norm());
     farthest = std::max(farthest, nearest);
@@ -49,8 +50,8 @@ std::vector<std::unique_ptr<const Peer>> peers() {
 
 std::vector<Vec3> plainly_refined(const PeerCase& of) {
   const bool triangular = of.masks->face_kind() == FaceKind::triangle;
-  const SubdivisionRules rules = rules_of(of.mesh, triangular ? OpenSubdiv::Sdc::SchemeType::SCHEME_LOOP
-                                                              : OpenSubdiv::Sdc::SchemeType::SCHEME_CATMARK);
+  const SubdivisionRules rules = rules_of(
+      of.mesh, triangular ? OpenSubdiv::Sdc::SchemeType::SCHEME_LOOP : OpenSubdiv::Sdc::SchemeType::SCHEME_CATMARK);
   const auto step = [&](const TaggedMesh& mesh) { return refine(mesh, rules, *of.masks); };
   RootMesh root(of.mesh, rules, step);
   for (int level = root.face_children.size() > 0; level < peer_levels; ++level)

@@ -52,9 +52,7 @@ std::vector<Vec3> refined(const ControlMesh& control) {
 class OpenMeshPeer final : public Peer {
  public:
   std::string name() const override { return "OpenMesh"; }
-  std::string version() const override {
-    return std::to_string(OM_GET_VER) + '.' + std::to_string(OM_GET_MAJ);
-  }
+  std::string version() const override { return std::to_string(OM_GET_VER) + '.' + std::to_string(OM_GET_MAJ); }
   bool offers(const PeerCase& of) const override {
     return (of.scheme == "loop" || of.scheme == "catmark" || of.scheme == "butterfly") && has_no_tags(of.mesh);
   }

@@ -30,7 +30,7 @@ class BfrPeer final : public Peer {
 
 /// Against the limit surface of shaolin, on a grid and close to the corners of all faces of the scheme's own kind.
 double BfrPeer::error(const PeerCase& of) const {
-  constexpr double places[][2] = {{0, 0},        {0.5, 0},     {0.5, 0.5},         {0.25, 0.25}, {0.125, 0.625},
+  constexpr double places[][2] = {{0, 0},        {0.5, 0},     {0.5, 0.5},          {0.25, 0.25}, {0.125, 0.625},
                                   {0.625, 0.25}, {1e-3, 1e-3}, {1e-4, 0.25 * 1e-4}, {0.03, 0.01}, {0.9, 0.05}};
   const SubdivisionRules rules = rules_of(of.mesh, scheme_type(of.scheme));
   const auto refiner = control_refiner(of.mesh, rules);
