@@ -4,11 +4,22 @@
 
 namespace shaolin {
 
-Scene::Scene(ControlMesh mesh, const std::string& scheme)
-    : implementation_(with_scheme(scheme, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type); })) {
+namespace {
+
+const SceneOptions& checked(const SceneOptions& options) {
+  if (options.method == Method::uniform && (options.level < 1 || options.level > 10))
+    throw InputError("tessellation level " + std::to_string(options.level) + " is out of range; expected 1 to 10");
+  return options;
 }
-Scene::Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks)
-    : implementation_(with_masks(masks, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type); })) {}
+
+}  // namespace
+
+Scene::Scene(ControlMesh mesh, const std::string& scheme, const SceneOptions& options)
+    : implementation_(with_scheme(
+          scheme, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type, checked(options)); })) {}
+Scene::Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks, const SceneOptions& options)
+    : implementation_(with_masks(
+          masks, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type, checked(options)); })) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;

@@ -2,6 +2,7 @@
 
 namespace shaolin {
 
-template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const CatmullClark&);
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const CatmullClark&,
+                                                                  const SceneOptions&);
 
 }  // namespace shaolin

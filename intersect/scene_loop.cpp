@@ -2,6 +2,6 @@
 
 namespace shaolin {
 
-template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const Loop&);
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const Loop&, const SceneOptions&);
 
 }  // namespace shaolin

@@ -2,6 +2,7 @@
 
 namespace shaolin {
 
-template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const RuntimeScheme<FaceKind::quad>&);
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const RuntimeScheme<FaceKind::quad>&,
+                                                                  const SceneOptions&);
 
 }  // namespace shaolin

@@ -2,7 +2,7 @@
 
 namespace shaolin {
 
-template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh,
-                                                                  const RuntimeScheme<FaceKind::triangle>&);
+template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const RuntimeScheme<FaceKind::triangle>&,
+                                                                  const SceneOptions&);
 
 }  // namespace shaolin

@@ -20,6 +20,7 @@ class Scene::Implementation {
 
 /// Throws InputError if the mesh does not suit the scheme.
 template <Scheme S>
-std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh mesh, const S& scheme);
+std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh mesh, const S& scheme,
+                                                         const SceneOptions& options);
 
 }  // namespace shaolin

@@ -4,6 +4,7 @@
 
 #include "scheme_scene.h"
 #include "shaolin.h"
+#include "uniform.h"
 
 namespace shaolin {
 
@@ -19,19 +20,23 @@ inline void check(const Ray& ray) {
   if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
 }
 
-template <Scheme S>
+/// `Intersector` is ShaoLin or one of the methods that it is compared with.
+template <Scheme S, class Intersector>
 class SchemeScene final : public Scene::Implementation {
  public:
-  SchemeScene(ControlMesh mesh, const S& scheme) : surface_(std::move(mesh), scheme), shaolin_(surface_) {}
+  /// `more` goes to the intersector, after the surface.
+  template <class... More>
+  explicit SchemeScene(ControlMesh mesh, const S& scheme, More... more)
+      : surface_(std::move(mesh), scheme), intersector_(surface_, more...) {}
 
   std::optional<Hit> intersect(const Ray& ray) const override {
-    return counted(ray, [&](RayCounters& counters) { return shaolin_.intersect(ray, counters); });
+    return counted(ray, [&](RayCounters& counters) { return intersector_.intersect(ray, counters); });
   }
   bool occluded(const Ray& ray) const override {
-    return counted(ray, [&](RayCounters& counters) { return shaolin_.occluded(ray, counters); });
+    return counted(ray, [&](RayCounters& counters) { return intersector_.occluded(ray, counters); });
   }
   const LimitSurface& surface() const override { return surface_; }
-  Box bounds() const override { return shaolin_.bvh().bounds(); }
+  Box bounds() const override { return intersector_.bounds(); }
 
   Statistics statistics() const override {
     Statistics total;
@@ -42,10 +47,7 @@ class SchemeScene final : public Scene::Implementation {
       total.cells += local.cells;
       total.newton_steps += local.newton_steps;
     }
-    total.faces = shaolin_.limit_faces();
-    total.faces_touched = shaolin_.faces_touched();
-    total.patches_split = shaolin_.patches_split();
-    total.bytes = shaolin_.bytes();
+    intersector_.add_to(total);
     return total;
   }
 
@@ -81,7 +83,7 @@ class SchemeScene final : public Scene::Implementation {
   }
 
   SchemeSurface<S> surface_;
-  ShaoLin<S, ExactFinish> shaolin_;
+  Intersector intersector_;
   std::uint64_t serial_ = next_serial();
   mutable tbb::enumerable_thread_specific<Statistics> counters_;
 };
@@ -89,8 +91,10 @@ class SchemeScene final : public Scene::Implementation {
 }  // namespace detail
 
 template <Scheme S>
-std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh mesh, const S& scheme) {
-  return std::make_unique<detail::SchemeScene<S>>(std::move(mesh), scheme);
+std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh mesh, const S& scheme, const SceneOptions& options) {
+  if (options.method == Method::uniform)
+    return std::make_unique<detail::SchemeScene<S, Uniform<S>>>(std::move(mesh), scheme, options.level);
+  return std::make_unique<detail::SchemeScene<S, ShaoLin<S, ExactFinish>>>(std::move(mesh), scheme);
 }
 
 }  // namespace shaolin

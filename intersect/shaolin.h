@@ -34,12 +34,16 @@ class ShaoLin {
   /// True if there is a hit in [tmin, tmax].
   bool occluded(const Ray& ray, RayCounters& counters) const;
 
-  const Bvh& bvh() const { return bvh_; }
-  std::uint64_t limit_faces() const { return primitives_.size(); }
-  std::uint64_t faces_touched() const { return faces_touched_; }
-  std::uint64_t patches_split() const { return totals_.patches_split; }
-  std::uint64_t bytes() const {
-    return totals_.bytes + bvh_.bytes() + primitives_.size() * (sizeof(Primitive) + sizeof(std::atomic<StartPatch*>));
+  /// A box that holds the surface.
+  const Box& bounds() const { return bvh_.bounds(); }
+
+  /// Adds what rays have made so far, and the memory that it takes.
+  void add_to(Statistics& total) const {
+    total.faces += primitives_.size();
+    total.faces_touched += faces_touched_;
+    total.patches_split += totals_.patches_split;
+    total.bytes +=
+        totals_.bytes + bvh_.bytes() + primitives_.size() * (sizeof(Primitive) + sizeof(std::atomic<StartPatch*>));
   }
 
  private:

@@ -198,6 +198,26 @@ TEST_CASE("query answers every ray in order", "[tools][cli]") {
   CHECK(number(table[3][2]) == Approx(number(table[1][2]) / 2).epsilon(1e-12));
 }
 
+TEST_CASE("query takes the triangles of a tessellation", "[tools][cli]") {
+  const Folder folder;
+  const std::string rays = folder.write("rays.csv", "0.1,0.2,5,0,0,-1\n9,9,5,0,0,-1\n");
+  const std::string model = data_file("cube_creases.obj");
+  std::vector<double> t;
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--uniform", "2"}, {"--uniform", "6"}}) {
+    std::vector<std::string> arguments{"query", model, "--rays", rays, "-o", folder / "hits.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(folder.run(arguments).status == 0);
+    const auto table = read_rows(folder / "hits.csv");
+    REQUIRE(table.size() == 3);
+    t.push_back(std::stod(table[1][2]));
+    CHECK(table[2][1] == "0");
+  }
+  CHECK(std::abs(t[1] - t[0]) < 0.05);
+  CHECK(std::abs(t[2] - t[0]) < 5e-4);
+  CHECK(t[1] != t[0]);
+  CHECK(folder.run({"query", model, "--rays", rays, "-o", folder / "no.csv", "--uniform", "0"}).status == 2);
+}
+
 TEST_CASE("query keeps to the interval of t", "[tools][cli]") {
   const Folder folder;
   const std::string rays = folder.write("rays.csv",

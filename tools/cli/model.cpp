@@ -39,6 +39,17 @@ CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
+void add_method_option(CLI::App& app, SceneOptions& options) {
+  app.add_option_function<int>(
+         "--uniform",
+         [&options](int level) {
+           options = {Method::uniform, level};
+         },
+         "For comparison: rays meet triangles in place of the limit surface, of a tessellation at this level")
+      ->check(CLI::Range(1, 10))
+      ->type_name("LEVEL");
+}
+
 Model load_model(const ModelOptions& options) {
   Model model;
   MeshPlaces places;
@@ -64,9 +75,10 @@ std::unique_ptr<LimitSurface> build_surface(Model model) {
   return surface;
 }
 
-Scene build_scene(Model model) {
+Scene build_scene(Model model, const SceneOptions& options) {
   const std::size_t printed = model.mesh.warnings.size();
-  Scene scene = model.masks ? Scene(std::move(model.mesh), model.masks) : Scene(std::move(model.mesh), model.scheme);
+  Scene scene = model.masks ? Scene(std::move(model.mesh), model.masks, options)
+                            : Scene(std::move(model.mesh), model.scheme, options);
   print_warnings(scene.surface().control_mesh(), printed);
   return scene;
 }

@@ -19,6 +19,9 @@ struct ModelOptions {
   std::filesystem::path plugin;  ///< a shared library with a scheme, see load_plugin(); empty: none
 };
 
+/// Adds --uniform LEVEL, which makes it a scene of triangles.
+void add_method_option(CLI::App& app, SceneOptions& options);
+
 /// Accepts the names of the built-in schemes.
 CLI::Validator is_scheme_name();
 
@@ -41,6 +44,6 @@ Model load_model(const ModelOptions& options);
 
 /// Builds the surface or the scene; warnings that arise only then go to stderr, too. Throw InputError.
 std::unique_ptr<LimitSurface> build_surface(Model model);
-Scene build_scene(Model model);
+Scene build_scene(Model model, const SceneOptions& options = {});
 
 }  // namespace shaolin

@@ -73,7 +73,7 @@ void query_any(const Scene& scene, const CsvTable& rays, CsvWriter& writer) {
 void query_in_arena(const QueryOptions& options) {
   Model model = load_model(options.model);
   const CsvTable rays = read_rays(options.rays);
-  const Scene scene = build_scene(std::move(model));
+  const Scene scene = build_scene(std::move(model), options.scene);
   CsvWriter writer(options.hits, hit_columns);
   if (options.any)
     query_any(scene, rays, writer);
@@ -93,6 +93,7 @@ void add_query(CLI::App& app, Command& command) {
   const auto options = std::make_shared<QueryOptions>();
   CLI::App* sub = app.add_subcommand("query", "Intersect rays from a CSV file with the limit surface");
   add_model_options(*sub, options->model);
+  add_method_option(*sub, options->scene);
   sub->add_option("--rays", options->rays,
                   "CSV file with the columns ox,oy,oz,dx,dy,dz[,tmin,tmax]; a header is optional. Directions need not "
                   "be unit; t is in units of their length")

@@ -10,6 +10,7 @@ namespace shaolin {
 
 struct QueryOptions {
   ModelOptions model;
+  SceneOptions scene;          ///< --uniform
   std::filesystem::path rays;  ///< --rays
   std::filesystem::path hits;  ///< -o
   bool any = false;            ///< --any: only whether a ray hits

@@ -108,7 +108,7 @@ void render_in_arena(const RenderOptions& options) {
   stats.scheme = model.scheme;
   stats.load_seconds = stopwatch.lap();
 
-  const Scene scene = build_scene(std::move(model));
+  const Scene scene = build_scene(std::move(model), options.scene);
   stats.build_seconds = stopwatch.lap();
 
   OutputFiles files(options);
@@ -154,6 +154,7 @@ void add_render(CLI::App& app, Command& command) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* sub = app.add_subcommand("render", "Render a picture of the limit surface");
   add_model_options(*sub, options->model);
+  add_method_option(*sub, options->scene);
   sub->add_option("-o,--output", options->exr,
                   "OpenEXR file with the channels R G B A (linear), Z (distance from the eye), N.X/Y/Z, P.X/Y/Z, "
                   "uv.U/V, face and level (UINT; 4294967295 where nothing was hit)")

@@ -12,6 +12,7 @@ namespace shaolin {
 
 struct RenderOptions {
   ModelOptions model;
+  SceneOptions scene;               ///< --uniform
   std::filesystem::path exr;        ///< -o
   std::filesystem::path png;        ///< --png; empty: not written. So with the next two
   std::filesystem::path level_png;  ///< --png-level
