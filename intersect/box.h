@@ -55,6 +55,11 @@ struct TraversalRay {
     inverse = direction.cwiseInverse();
     near = ray.tmin * scaled_length_ * scale_;
     far = ray.tmax * scaled_length_ * scale_;
+    // Along a tiny direction t overflows: what no number says is no hit.
+    if (const double reach = std::numeric_limits<double>::max() * scale_ * scaled_length_; reach < 1e30) {
+      near = std::max(near, -reach);
+      far = std::min(far, reach);
+    }
   }
 
   /// A distance in units of the given direction's length.

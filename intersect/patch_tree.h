@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 
+#include "../schemes/errors.h"
 #include "../schemes/patch.h"
 #include "box_space.h"
 #include "limit_bounds.h"
@@ -93,6 +94,7 @@ class PatchNode {
       return set(patch.regular());
     }
     irregular_ = std::make_unique<Patch<S>>(std::move(patch));
+    check_finite(irregular_->points);
     box_ = limit_bound(*irregular_);
     add_slack();
     leaf_ = basis_of(irregular_->configuration->scheme()) == Basis::none &&
@@ -101,9 +103,19 @@ class PatchNode {
 
   void set(const Regular& piece) {
     regular_ = std::make_unique<Net>(piece);
+    check_finite(piece.b);
     for (const Vec3& point : piece.b) box_.add(point);
     add_slack();
     leaf_ = level_ - regular_level_ >= deepest_polynomial_split || is_flat(piece);
+  }
+
+  template <class Points>
+  static void check_finite(const Points& points) {
+    if (!std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); }))
+      throw InputError(
+          "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
+          "not "
+          "converge; see 'shaolin scheme check'");
   }
 
   /// The control points carry the roundings that RayFrame::error bounds; a box test must not be stricter.

@@ -24,11 +24,13 @@ enum class Query { closest, any };
 template <Scheme S, template <class> class Finish>
 class ShaoLin {
  public:
-  /// Bounds every face (see face_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet.
+  /// Bounds every face (see face_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet. Throws
+  /// InputError if a face has no finite bound.
   explicit ShaoLin(const SchemeSurface<S>& surface);
 
   /// The hit with the least t in [tmin, tmax]. Of hits at equal distance, the face visited first wins; the order of
-  /// visits depends on the ray alone. The work goes to `counters`.
+  /// visits depends on the ray alone. The work goes to `counters`. Throws InputError where masks turn out not to
+  /// converge.
   std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const;
 
   /// True if there is a hit in [tmin, tmax].
@@ -150,6 +152,10 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface)
     const double slack = 160 * unit_roundoff * box.largest_coordinate();
     box.lower.array() -= slack;
     box.upper.array() += slack;
+    if (!box.lower.allFinite() || !box.upper.allFinite())
+      throw InputError("nothing bounds the surface of face " + std::to_string(f) +
+                       ": its coordinates are too large, or the masks of the scheme do not converge; see 'shaolin "
+                       "scheme check'");
     for (int sub = 0; sub < surface.sub_count(f); ++sub) {
       boxes.push_back(box);
       primitives_.push_back({f, sub});
@@ -278,6 +284,11 @@ void ShaoLin<S, Finish>::descend(const Node& node, Search& search) const {
     if (node.is_tiny() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
         high.z() - low.z() <= 64 * error)
       return finish_irregular(node, hull, search);
+    // Where patches shrink by 0.93 a level or less, rounding error is reached in as many levels.
+    constexpr int most_levels = 500;
+    if (node.level() >= most_levels)
+      throw InputError("a patch does not shrink to a point in " + std::to_string(most_levels) +
+                       " levels: the masks of the scheme do not converge; see 'shaolin scheme check'");
     children = &node.children(bvh_.space(), totals_);
   }
 

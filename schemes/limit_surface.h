@@ -25,7 +25,8 @@ class LimitSurface {
 
   /// Position, normal and derivatives at a parameter; empty if the face has no limit surface. Exact to rounding
   /// anywhere, however close to an irregular vertex: the patch is split until the parameter lies in a regular piece.
-  /// Throws InputError if face, sub, u or v is out of range. O(valence x log2(1 / distance to an irregular corner)).
+  /// Throws InputError if face, sub, u or v is out of range, or if the scheme's masks lead to no finite point.
+  /// O(valence x log2(1 / distance to an irregular corner)).
   virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
 
   /// The control mesh that it was made from.

@@ -17,6 +17,7 @@ struct MeshPlaces {
   std::vector<int> sharp_vertices;
   std::vector<int> cones;
   std::vector<int> holes;
+  int scheme = 0;  ///< of the scheme's tag; 0: none
 };
 
 /// check() whose messages and warnings carry file and line. A warning that the mesh has already is not repeated.

@@ -283,7 +283,10 @@ class ObjReader {
         is_second(tag, "catmark", "smooth") ? TriangleSubdivision::smooth : TriangleSubdivision::catmark;
   }
 
-  void apply_scheme(const Tag& tag) { mesh_.scheme = tag.words[0]; }
+  void apply_scheme(const Tag& tag) {
+    mesh_.scheme = tag.words[0];
+    places_.scheme = words_.line();
+  }
 
   /// Face-varying data (texture coordinates) has no part in the surface.
   void accept_without_effect(const Tag&) {}

@@ -134,10 +134,10 @@ Ring Refinement::ring_of_vertex(int v) {
   return result;
 }
 
-/// The edge as a spoke that has the face itself beside it, if there is one; else at the end of a ring that was cut
-/// there, if there is one.
+/// The edge as a spoke that has the face itself beside it, if there is one, and what lies beyond the edge, too, if any
+/// ring holds it (the ring of a dart does); else at the end of a ring that was cut there, if there is one.
 Refinement::Place Refinement::place_of_edge(int edge) const {
-  Place place{nullptr, 0, nullptr, nullptr}, cut = place;
+  Place place{nullptr, 0, nullptr, nullptr}, cut = place, one_sided = place;
   for (const Ring& ring : parent_.rings) {
     for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
       if (ring.spokes[i].edge != edge) continue;
@@ -146,34 +146,22 @@ Refinement::Place Refinement::place_of_edge(int edge) const {
                : ring.closed ? &ring.faces.back()
                              : nullptr};
       const auto is_face = [&](const FaceSides* side) { return side && side->id() == parent_.face.id(); };
-      if (is_face(place.left) || is_face(place.right)) return place;
+      if (is_face(place.left) || is_face(place.right)) {
+        if (place.left && place.right) return place;
+        one_sided = place;
+      }
       if (!place.left || !place.right) cut = place;
     }
   }
-  return cut.ring ? cut : place;
+  return one_sided.ring ? one_sided : cut.ring ? cut : place;
 }
 
 /// Around an edge's new vertex: the two halves of the edge, and what each side's face contributes between them. A side
-/// beyond an infinitely sharp edge of the face itself is left out, unless it meets the face in another corner, too, for
-/// then it comes back into the second rings.
+/// beyond an infinitely sharp edge is there if a ring holds it: around a dart it is read by masks of radius 2.
 Ring Refinement::ring_of_edge(int edge) {
-  Place place = place_of_edge(edge);
+  const Place place = place_of_edge(edge);
   const Ring::Spoke& spoke = place.ring->spokes[place.spoke];
   const int a = place.ring->vertex, b = spoke.end;
-  const auto meets_again = [&](const FaceSides* face) {
-    for (int i = 0; face && i < face->size(); ++i)
-      if (face->vertex(i) != a && face->vertex(i) != b && parent_.face.has_vertex(face->vertex(i))) return true;
-    return false;
-  };
-  const bool both_meet = meets_again(place.left) && meets_again(place.right);
-  if (is_infinite(spoke.sharpness) && !both_meet) {
-    if (place.left && place.left->id() == parent_.face.id()) {
-      place.right = nullptr;
-    } else if (place.right && place.right->id() == parent_.face.id()) {
-      place.left = nullptr;
-    }
-  }
-
   Ring result;
   result.vertex = from_edge(edge);
   result.closed = place.left && place.right;

@@ -24,7 +24,12 @@ class SchemeSurface final : public LimitSurface {
   std::optional<LimitSample> evaluate(const SurfaceParameter& at) const override {
     check_range(at);
     if (!has_limit(at.face)) return {};
-    return shaolin::evaluate(patch(at.face, at.sub), Parameter(at.u, at.v));
+    LimitSample sample = shaolin::evaluate(patch(at.face, at.sub), Parameter(at.u, at.v));
+    if (!sample.position.allFinite())
+      throw InputError("the limit at face " + std::to_string(at.face) +
+                       " is not finite: its coordinates are too large, or the masks of the scheme do not converge; see "
+                       "'shaolin scheme check'");
+    return sample;
   }
 
   /// The patch of a face, or of an n-gon's corner.

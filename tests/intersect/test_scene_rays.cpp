@@ -87,6 +87,19 @@ TEST_CASE("A line crosses a closed surface an even number of times, the same fro
   }
 }
 
+TEST_CASE("A hit whose t overflows is none", "[intersect][scene]") {
+  const Scene scene = plane();
+  for (const double length : {1e-308, 1e-310, 5e-324}) {
+    CAPTURE(length);
+    const Ray ray{{1.3, 2.6, 2}, {0, 0, -length}};  // t would be 2 / length
+    CHECK(!scene.intersect(ray));
+    CHECK(!scene.occluded(ray));
+  }
+  const auto near = scene.intersect({{1.3, 2.6, 0x1p-100}, {0, 0, -0x1p-1060}});
+  REQUIRE(near);
+  CHECK(near->t == Approx(0x1p960));
+}
+
 TEST_CASE("t is in units of the direction's length", "[intersect][scene]") {
   const Scene scene(shaken(poles("loop", 5), 0.1), "loop");
   for (const Ray& ray : random_rays(scene.bounds(), 100, 22)) {
@@ -136,7 +149,7 @@ TEST_CASE("A direction may be as short or as long as doubles are", "[intersect][
   Ray ray = down();
   ray.direction = {0, 0, -std::numeric_limits<double>::max()};
   CHECK(scene.intersect(ray));
-  ray.direction = {0, 0, -1e-308};
+  ray.direction = {0, 0, -1.2e-308};
   CHECK(scene.intersect(ray));
 }
 

@@ -112,6 +112,8 @@ TEST_CASE("files that are missing or unusable exit with 3", "[tools][cli]") {
 
   const std::string broken = folder.write("broken.obj", cube + "f 1 2 99\n");
   check_refused(folder, {"render", broken, "-o", folder / "out.exr"}, broken + ":15:");
+  const std::string foreign = folder.write("foreign.obj", "t scheme 0/0/1 doo-sabin\n" + cube);
+  check_refused(folder, {"info", foreign}, foreign + ":1: unknown scheme 'doo-sabin'");
   const std::string mixed = folder.write("mixed.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 4\n");
   for (const std::string scheme : {"loop", "warren", "linear"})
     check_refused(folder, {"info", mixed, "--scheme", scheme}, mixed + ":6: face 1 has 4 corners; a triangle scheme");

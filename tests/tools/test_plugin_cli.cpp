@@ -1,5 +1,6 @@
 // --plugin of the tool: every subcommand takes it, and a bad one is exit 3 with a reason.
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "tests/plugins/plugin_files.h"
 
@@ -56,6 +57,41 @@ TEST_CASE("a mask that fails while a scene is used exits with 3", "[tools][plugi
   CHECK(outcome.status == 3);
   CHECK(holds(outcome.text, "smooth_vertex(12) of the scheme 'Faulty' failed: more than eight is too many"));
   CHECK(folder.list() == std::set<std::string>{"fan.obj"});
+}
+
+TEST_CASE("masks that do not converge exit with 3 and leave no file", "[tools][plugin]") {
+  // The toy's rules have no limit where a boundary turns.
+  const Folder folder;
+  const std::string toy = example_plugin("toy");
+  const Outcome outcome =
+      folder.run({"render", data_file("saddle.obj"), "-o", folder / "out.exr", "--size", "24x24", "--plugin", toy});
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 3);
+  CHECK(holds(outcome.text, "the masks of the scheme do not converge"));
+  CHECK(folder.list().empty());
+}
+
+TEST_CASE("the default camera frames the surface of a plug-in", "[tools][plugin]") {
+  // Certain bounds of masks with negative weights are several times as wide as the surface.
+  const Folder folder;
+  const auto pixels_hit = [&](const std::vector<std::string>& scheme) {
+    std::vector<std::string> arguments{"render",  data_file("torus.obj"), "-o", folder / "out.exr", "--size", "48x48",
+                                       "--stats", folder / "stats.json"};
+    arguments.insert(arguments.end(), scheme.begin(), scheme.end());
+    REQUIRE(folder.run(arguments).status == 0);
+    return nlohmann::json::parse(read_file(folder / "stats.json")).at("image").at("pixels_hit").get<int>();
+  };
+  CHECK(pixels_hit({"--plugin", example_plugin("kobbelt")}) > pixels_hit({"--scheme", "catmark"}) / 3);
+}
+
+TEST_CASE("The example schemes that are right pass the kit, the toy does not", "[tools][plugin]") {
+  const Folder folder;
+  for (const std::string name : {"butterfly", "kobbelt", "plain"}) {
+    const Outcome outcome = folder.run({"scheme", "check", "--plugin", example_plugin(name), "--valence", "12"});
+    CAPTURE(name, outcome.text);
+    CHECK(outcome.status == 0);
+  }
+  CHECK(folder.run({"scheme", "check", "--plugin", example_plugin("toy"), "--valence", "12"}).status == 1);
 }
 
 TEST_CASE("--plugin and a scheme's name exclude each other", "[tools][plugin]") {

@@ -16,6 +16,13 @@ void print_warnings(const ControlMesh& mesh, std::size_t first) {
     std::cerr << "shaolin: warning: " << mesh.warnings[i] << '\n';
 }
 
+/// Throws InputError for a scheme that is not built in: it comes from the file.
+FaceKind face_kind_of(const std::string& scheme, const MeshPlaces& places) {
+  for (const BuiltinScheme& known : builtin_schemes())
+    if (scheme == known.name) return known.face_kind;
+  throw InputError("unknown scheme '" + scheme + "'; expected " + builtin_scheme_names(), places.file, places.scheme);
+}
+
 }  // namespace
 
 CLI::Validator is_scheme_name() {
@@ -61,8 +68,7 @@ Model load_model(const ModelOptions& options) {
   } else {
     model.scheme = options.scheme.empty() ? default_scheme(model.mesh) : options.scheme;
   }
-  const FaceKind kind = (model.masks ? model.masks : builtin_masks(model.scheme))->face_kind();
-  check_faces(model.mesh, kind, places);
+  check_faces(model.mesh, model.masks ? model.masks->face_kind() : face_kind_of(model.scheme, places), places);
   print_warnings(model.mesh, 0);
   return model;
 }

@@ -97,6 +97,21 @@ void print_summary(const RenderOptions& options, const RenderStats& stats) {
               stats.build_seconds, stats.render_seconds, stats.write_seconds);
 }
 
+/// What a default camera frames. A scene's bounds hold for certain, which can make them several times as wide as the
+/// surface where masks have negative weights; the control points of its faces, with a quarter of their extent around
+/// for what such schemes overshoot, are not.
+Box frame_of(const Scene& scene) {
+  const LimitSurface& surface = scene.surface();
+  const ControlMesh& mesh = surface.control_mesh();
+  Box control;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    if (!surface.has_limit(f)) continue;
+    for (const int vertex : mesh.face(f)) control.add(mesh.positions[static_cast<std::size_t>(vertex)]);
+  }
+  const Box wide = control.expanded(0.25), bounds = scene.bounds();
+  return {bounds.lower.cwiseMax(wide.lower), bounds.upper.cwiseMin(wide.upper)};
+}
+
 void render_in_arena(const RenderOptions& options) {
   RenderStats stats;
   stats.threads = thread_count(options.threads);
@@ -114,7 +129,7 @@ void render_in_arena(const RenderOptions& options) {
   OutputFiles files(options);
   if (!options.camera && scene.statistics().faces == 0)
     throw InputError("no face has a limit surface, so that there is nothing to frame; expected --camera", stats.model);
-  const View view(options.camera ? *options.camera : default_camera(scene.bounds(), options.size), options.size);
+  const View view(options.camera ? *options.camera : default_camera(frame_of(scene), options.size), options.size);
   const Image image = render_image(scene, view);
   stats.render_seconds = stopwatch.lap();
   stats.camera = to_string(view.camera());

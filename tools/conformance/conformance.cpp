@@ -108,9 +108,9 @@ class Kit {
     return to_string(star) + " of " + std::to_string(faces) + (faces == 1 ? " face" : " faces");
   }
 
-  /// A closed mesh of random points with vertices of several valences.
-  ControlMesh random_mesh(int valence) {
-    ControlMesh mesh = vertex_star(kind, StarKind::smooth, valence);
+  /// A closed mesh of random points with vertices of several valences; around vertex 0, if asked to, a dart.
+  ControlMesh random_mesh(int valence, StarKind star = StarKind::smooth) {
+    ControlMesh mesh = vertex_star(kind, star, valence);
     for (Vec3& p : mesh.positions) p += 0.4 * points_.next();
     return mesh;
   }
@@ -384,15 +384,23 @@ class Kit {
   void continuity() {
     Worst edges("continuity across edges", 1e-13, "two faces give different points on their edge");
     Worst junctions("continuity at T-junctions", 1e-13, "a patch and its child give different points");
-    for (const int n : {3, 4, 5, 6, 7, 12}) {
-      const ControlMesh mesh = random_mesh(n);
-      const SchemeSurface<S> limit(mesh, scheme_);
-      const std::string where = "valence " + std::to_string(n);
+    for (const auto& [star, n] : {std::pair{StarKind::smooth, 3},
+                                  {StarKind::smooth, 4},
+                                  {StarKind::smooth, 5},
+                                  {StarKind::smooth, 6},
+                                  {StarKind::smooth, 12},
+                                  {StarKind::dart, 3},
+                                  {StarKind::dart, 4},
+                                  {StarKind::dart, 5},
+                                  {StarKind::dart, 6}}) {
+      const SchemeSurface<S> limit(random_mesh(n, star), scheme_);
+      const std::string where = subject(star, n);
       for (int f = 0; f < n; ++f) {
         // Faces f and f + 1 share the last side of the one and the first of the other.
-        const double t = points_.share();
-        const Vec3 a = limit.evaluate({f, 0, 0, t})->position, b = limit.evaluate({(f + 1) % n, 0, t, 0})->position;
-        edges.add((a - b).norm(), where);
+        for (const double t : {0.05, points_.share(), 0.9}) {
+          const Vec3 a = limit.evaluate({f, 0, 0, t})->position, b = limit.evaluate({(f + 1) % n, 0, t, 0})->position;
+          edges.add((a - b).norm(), where);
+        }
         const Patch<S> patch = limit.patch(f, 0);
         for (int k = 0; k < 4; ++k) {
           const Parameter at = 0.5 * D::centre();
