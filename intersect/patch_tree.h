@@ -114,8 +114,7 @@ class PatchNode {
     if (!std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); }))
       throw InputError(
           "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
-          "not "
-          "converge; see 'shaolin scheme check'");
+          "not converge; see 'shaolin scheme check'");
   }
 
   /// The control points carry the roundings that RayFrame::error bounds; a box test must not be stricter.

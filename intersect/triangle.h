@@ -11,8 +11,9 @@ namespace shaolin {
 
 /// A ray's coordinates for many triangles: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1),
 /// 2013. Space is sheared so that the ray becomes the z axis; a point is on one side of an edge or the other by the
-/// sign of one difference of two products, which two triangles that share the edge round alike. A ray through a side or
-/// a corner meets all triangles there, so that none slips through between two.
+/// sign of one difference of two products, which two triangles that share the edge round alike. So a ray through a side
+/// meets one of the two triangles there at least. At a corner this rests on the signs of all sides around it: where the
+/// ray is within rounding of the corner and of a side's line, a wrong one may let it through.
 class TriangleRay {
  public:
   explicit TriangleRay(const TraversalRay& ray) : origin_(ray.origin) {

@@ -388,6 +388,7 @@ class Kit {
                                   {StarKind::smooth, 4},
                                   {StarKind::smooth, 5},
                                   {StarKind::smooth, 6},
+                                  {StarKind::smooth, 7},
                                   {StarKind::smooth, 12},
                                   {StarKind::dart, 3},
                                   {StarKind::dart, 4},
