@@ -28,6 +28,7 @@ class Cutter {
 
  private:
   void collect_sides();
+  bool is_collapsed(int face) const;
   bool is_manifold(std::span<const Side> edge) const;
   void inspect(std::span<const Side> edge);
   void join_fans(std::span<const Side> edge);
@@ -83,6 +84,14 @@ void Cutter::collect_sides() {
   fans_.resize(mesh_.positions.size());
 }
 
+/// Fewer than three of the face's sides join different vertices: it has no inside that half-edges could go round.
+bool Cutter::is_collapsed(int face) const {
+  const std::span<const int> v = mesh_.face(face);
+  std::size_t steps = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) steps += v[i] != v[(i + 1) % v.size()];
+  return steps < 3;
+}
+
 bool Cutter::is_manifold(std::span<const Side> edge) const {
   if (edge[0].low == edge[0].high || edge.size() > 2) return false;
   if (edge.size() == 1) return true;
@@ -121,10 +130,13 @@ int Cutter::piece(int corner) {
   return static_cast<int>(at);
 }
 
-/// Two faces that meet in a manifold edge are in one fan at both ends; so are both corners of an edge of equal ends.
+/// Two faces that meet in a manifold edge are in one fan at both ends; so are both corners of an edge of equal ends. A
+/// collapsed face keeps its corners apart: every one is sharp, and so is every side, so it is what it would be with
+/// vertices of its own, a segment or a point.
 void Cutter::join_fans(std::span<const Side> edge) {
   if (edge[0].low == edge[0].high) {
-    for (const Side& side : edge) join(corner_index(side, false), corner_index(side, true));
+    for (const Side& side : edge)
+      if (!is_collapsed(side.face)) join(corner_index(side, false), corner_index(side, true));
   } else if (edge.size() == 2 && is_manifold(edge)) {
     join(corner_index(edge[0], false), corner_index(edge[1], true));
     join(corner_index(edge[0], true), corner_index(edge[1], false));
@@ -226,14 +238,11 @@ void Cutter::set_limits(ManifoldMesh& result, bool faces_stand_alone) const {
   for (const int hole : mesh_.holes) result.has_limit[static_cast<std::size_t>(hole)] = 0;
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const std::span<const int> v = mesh_.face(f);
-    std::size_t steps = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const bool loose = counts_[static_cast<std::size_t>(v[i])].loose_boundary > 0;
+    for (const int vertex : v) {
+      const bool loose = counts_[static_cast<std::size_t>(vertex)].loose_boundary > 0;
       if (loose && !faces_stand_alone && mesh_.boundary == BoundaryInterpolation::none)
         result.has_limit[static_cast<std::size_t>(f)] = 0;
-      steps += v[i] != v[(i + 1) % v.size()];
     }
-    if (steps < 3) result.has_limit[static_cast<std::size_t>(f)] = 0;
   }
 }
 

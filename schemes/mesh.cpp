@@ -40,23 +40,21 @@ void Mesh::set_edge_sharpness(const ManifoldMesh& topology) {
   }
 }
 
-/// The kernel gets every face with repeated vertices taken together; a face with fewer than three left is cut out.
+/// The kernel gets every face with repeated vertices taken together; cut_to_manifold leaves at least three.
 void Mesh::build_half_edges() {
   connectivity_.reserve(points_.size(), face_vertices_.size(), has_limit_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) connectivity_.new_vertex();
-  kernel_face_.assign(has_limit_.size(), -1);
   std::vector<OpenMesh::VertexHandle> handles;
   for (const int f : faces()) {
     handles.clear();
     const std::span<const int> v = face(f);
     for (std::size_t i = 0; i < v.size(); ++i)
       if (v[i] != v[(i + 1) % v.size()]) handles.emplace_back(v[i]);
-    if (handles.size() < 3) continue;
+    assert(handles.size() >= 3);
     const OpenMesh::FaceHandle handle = connectivity_.add_face(handles.data(), handles.size());
     if (!handle.is_valid())
       throw InputError("face " + std::to_string(f) + " does not fit its neighbours in the half-edge mesh");
-    kernel_face_[static_cast<std::size_t>(f)] = handle.idx();
-    input_face_.push_back(f);
+    assert(handle.idx() == f);
     for (std::size_t i = 0; i < v.size(); ++i) corner_at_[static_cast<std::size_t>(v[i])] = {f, static_cast<int>(i)};
   }
 }
@@ -72,9 +70,8 @@ void Mesh::number_sides() {
   face_sides_.resize(face_vertices_.size());
   place_of_half_edge_.resize(connectivity_.n_halfedges());
   for (const int f : faces()) {
-    if (!is_held(f)) continue;
     const std::span<const int> v = face(f);
-    HalfEdge half = connectivity_.halfedge_handle(OpenMesh::FaceHandle(kernel_face_[static_cast<std::size_t>(f)]));
+    HalfEdge half = connectivity_.halfedge_handle(OpenMesh::FaceHandle(f));
     std::size_t place = 0;
     while (v[place] != connectivity_.from_vertex_handle(half).idx() ||
            v[(place + 1) % v.size()] != connectivity_.to_vertex_handle(half).idx())
@@ -104,10 +101,9 @@ Mesh::HalfEdge Mesh::half_edge(Corner corner) const {
 Mesh::Corner Mesh::corner_of(HalfEdge half_edge, int vertex) const {
   const OpenMesh::FaceHandle handle = connectivity_.face_handle(half_edge);
   if (!handle.is_valid()) return {-1, 0};
-  const int face_number = input_face_[static_cast<std::size_t>(handle.idx())];
   const int place = place_of_half_edge_[static_cast<std::size_t>(half_edge.idx())];
   const bool leaves = connectivity_.from_vertex_handle(half_edge).idx() == vertex;
-  return {face_number, leaves ? place : (place + 1) % face_size(face_number)};
+  return {handle.idx(), leaves ? place : (place + 1) % face_size(handle.idx())};
 }
 
 /// Across the side that leaves the corner; face -1 at a boundary or a side between equal vertices.

@@ -68,10 +68,7 @@ class Mesh {
   /// The same with its sides, seen from its first corner. A view into the mesh.
   FaceSides face_sides(int face) const { return face_from({face, 0}); }
 
-  /// False for a face without three distinct vertices in a row: the half-edges leave it out, and so does refinement.
-  bool is_held(int face) const { return kernel_face_[static_cast<std::size_t>(face)] >= 0; }
-
-  /// False for holes, for faces at a boundary that is not interpolated, and for faces without an inside.
+  /// False for holes and for faces at a boundary that is not interpolated.
   bool has_limit(int face) const { return has_limit_[static_cast<std::size_t>(face)] != 0; }
 
   /// A face and a place in its vertices.
@@ -99,7 +96,6 @@ class Mesh {
   int degenerate_side_count() const { return degenerate_side_count_; }
   const OpenMesh::PolyConnectivity& connectivity() const { return connectivity_; }
   int side(Corner corner) const { return face_sides_[index(corner)]; }
-  int input_face(OpenMesh::FaceHandle face) const { return input_face_[static_cast<std::size_t>(face.idx())]; }
 
  private:
   void build_half_edges();
@@ -125,12 +121,11 @@ class Mesh {
   void set_edge_sharpness(const ManifoldMesh& topology);
   Corner corner_of(HalfEdge half_edge, int vertex) const;
 
-  OpenMesh::PolyConnectivity connectivity_;
+  OpenMesh::PolyConnectivity connectivity_;  ///< its faces have our numbers
   std::vector<Vec3> points_;
   std::vector<int> face_offsets_, face_vertices_;
-  std::vector<int> face_sides_;                ///< edges; from edge_count() on sides between equal vertices
-  std::vector<int> place_of_half_edge_;        ///< in its face
-  std::vector<int> kernel_face_, input_face_;  ///< input face <-> half-edge face; -1 where the kernel has none
+  std::vector<int> face_sides_;          ///< edges; from edge_count() on sides between equal vertices
+  std::vector<int> place_of_half_edge_;  ///< in its face
   std::vector<float> vertex_sharpness_;
   std::vector<std::array<float, 3>> edge_sharpness_;  ///< its own, then of its halves (see Edge)
   std::vector<char> is_cone_, has_limit_;

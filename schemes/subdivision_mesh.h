@@ -35,7 +35,6 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   /// The coarser mesh, null at level 0; and navigation between both.
   const SubdivisionMesh* parent() const { return parent_; }
   int child_count(int face) const {
-    if (!this->is_held(face)) return 0;
     return S::face_kind == FaceKind::triangle ? 4 : this->face_size(face);
   }
   int child_face(int face, int k) const { return first_child_[static_cast<std::size_t>(face)] + k; }
@@ -161,7 +160,6 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points_by_stencils() const {
     }
   }
   for (const int f : this->faces()) {
-    if (!this->is_held(f)) continue;
     if (S::face_kind == FaceKind::quad)
       result[static_cast<std::size_t>(child_of_face(f))] = stencils.face(this->face_sides(f)).of(points);
     for (int i = 0; i < this->face_size(f); ++i)
@@ -197,7 +195,6 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
   }
 
   for (const int f : this->faces()) {
-    if (!this->is_held(f)) continue;
     if (S::face_kind == FaceKind::quad)
       result[static_cast<std::size_t>(child_of_face(f))] = face_points[static_cast<std::size_t>(f)];
     for (int i = 0; i < this->face_size(f); ++i)
@@ -212,8 +209,8 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
     const auto side = [&](OpenMesh::HalfedgeHandle h) -> const Vec3* {
       const auto handle = this->connectivity().face_handle(h);
       if (!handle.is_valid()) return nullptr;
-      triangles += this->face_size(this->input_face(handle)) == 3;
-      if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(this->input_face(handle))];
+      triangles += this->face_size(handle.idx()) == 3;
+      if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(handle.idx())];
       return &this->point(this->connectivity().to_vertex_handle(this->connectivity().next_halfedge_handle(h)).idx());
     };
     const Vec3 *left = side(half), *right = side(this->connectivity().opposite_halfedge_handle(half));
@@ -235,7 +232,6 @@ ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
     next.has_limit.push_back(this->has_limit(face));
   };
   for (const int f : this->faces()) {
-    if (!this->is_held(f)) continue;
     const std::span<const int> v = this->face(f);
     const int n = static_cast<int>(v.size());
     std::vector<int> side;
@@ -277,7 +273,7 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
   }
   // An edge between equal vertices is a point: its new vertex stays there, and both its halves are sharp.
   for (const int f : this->faces())
-    for (int i = 0; this->is_held(f) && i < this->face_size(f); ++i)
+    for (int i = 0; i < this->face_size(f); ++i)
       if (this->degenerate_side({f, i}) >= 0) {
         const int middle = child_of_side(f, i);
         next.vertex_sharpness[static_cast<std::size_t>(middle)] = infinite_sharpness;
