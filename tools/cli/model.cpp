@@ -6,6 +6,7 @@
 #include "schemes/builtin.h"
 #include "schemes/load_plugin.h"
 #include "schemes/obj.h"
+#include "tools/cli/scene_file.h"
 
 namespace shaolin {
 namespace {
@@ -31,8 +32,8 @@ CLI::Validator is_scheme_name() {
   return CLI::IsMember(names);
 }
 
-void add_model_options(CLI::App& app, ModelOptions& options) {
-  app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
+void add_model_options(CLI::App& app, ModelOptions& options, const std::string& what) {
+  app.add_option("MODEL", options.file, what)->required();
   CLI::Option* const scheme = app.add_option(
       "--scheme", options.scheme,
       "Subdivision scheme: " + builtin_scheme_names() +
@@ -58,6 +59,8 @@ void add_method_option(CLI::App& app, SceneOptions& options) {
 }
 
 Model load_model(const ModelOptions& options) {
+  if (is_scene_file(options.file))
+    throw InputError("is a scene file; expected a model (an OBJ file)", options.file.string());
   Model model;
   MeshPlaces places;
   model.mesh = read_obj(options.file, places);
@@ -81,12 +84,16 @@ std::unique_ptr<LimitSurface> build_surface(Model model) {
   return surface;
 }
 
-Scene build_scene(Model model, const SceneOptions& options) {
+std::shared_ptr<const Object> build_object(Model model, const SceneOptions& options) {
   const std::size_t printed = model.mesh.warnings.size();
-  Scene scene = model.masks ? Scene(std::move(model.mesh), model.masks, options)
-                            : Scene(std::move(model.mesh), model.scheme, options);
-  print_warnings(scene.surface().control_mesh(), printed);
-  return scene;
+  auto object = model.masks ? make_object(std::move(model.mesh), model.masks, options)
+                            : make_object(std::move(model.mesh), model.scheme, options);
+  print_warnings(object->surface().control_mesh(), printed);
+  return object;
+}
+
+Scene build_scene(Model model, const SceneOptions& options) {
+  return Scene({Instance{build_object(std::move(model), options)}});
 }
 
 }  // namespace shaolin
