@@ -106,7 +106,7 @@ void print_warnings(const ControlMesh& mesh) {
 
 int info(const InfoOptions& options) {
   if (is_scene_file(options.model.file)) return scene_info(options.model);
-  Model model = load_model(options.model);
+  LoadedModel model = load_model(options.model);
   const std::string scheme = model.scheme;
   const std::unique_ptr<LimitSurface> surface = build_surface(std::move(model));
   const ControlMesh& mesh = surface->control_mesh();

@@ -58,10 +58,10 @@ void add_method_option(CLI::App& app, SceneOptions& options) {
       ->type_name("LEVEL");
 }
 
-Model load_model(const ModelOptions& options) {
+LoadedModel load_model(const ModelOptions& options) {
   if (is_scene_file(options.file))
     throw InputError("is a scene file; expected a model (an OBJ file)", options.file.string());
-  Model model;
+  LoadedModel model;
   MeshPlaces places;
   model.mesh = read_obj(options.file, places);
   if (!options.plugin.empty()) {
@@ -76,7 +76,7 @@ Model load_model(const ModelOptions& options) {
   return model;
 }
 
-std::unique_ptr<LimitSurface> build_surface(Model model) {
+std::unique_ptr<LimitSurface> build_surface(LoadedModel model) {
   const std::size_t printed = model.mesh.warnings.size();
   auto surface = model.masks ? make_limit_surface(std::move(model.mesh), model.masks)
                              : make_limit_surface(std::move(model.mesh), model.scheme);
@@ -84,7 +84,7 @@ std::unique_ptr<LimitSurface> build_surface(Model model) {
   return surface;
 }
 
-std::shared_ptr<const Object> build_object(Model model, const SceneOptions& options) {
+std::shared_ptr<const Object> build_object(LoadedModel model, const SceneOptions& options) {
   const std::size_t printed = model.mesh.warnings.size();
   auto object = model.masks ? make_object(std::move(model.mesh), model.masks, options)
                             : make_object(std::move(model.mesh), model.scheme, options);
@@ -92,7 +92,7 @@ std::shared_ptr<const Object> build_object(Model model, const SceneOptions& opti
   return object;
 }
 
-Scene build_scene(Model model, const SceneOptions& options) {
+Scene build_scene(LoadedModel model, const SceneOptions& options) {
   return Scene({Instance{build_object(std::move(model), options)}});
 }
 

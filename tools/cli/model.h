@@ -33,7 +33,7 @@ void add_model_options(CLI::App& app, ModelOptions& options,
 CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file);
 
 /// A mesh as read, and the scheme to subdivide it with.
-struct Model {
+struct LoadedModel {
   ControlMesh mesh;
   std::string scheme;                        ///< its name
   std::shared_ptr<const SchemeMasks> masks;  ///< of a plug-in; null: `scheme` is built in
@@ -41,12 +41,12 @@ struct Model {
 
 /// Reads the OBJ file and settles the scheme; a plug-in is loaded, and runs. Prints the mesh's warnings to stderr.
 /// Throws InputError, for a scene file, too.
-Model load_model(const ModelOptions& options);
+LoadedModel load_model(const ModelOptions& options);
 
 /// Build the surface, the object or a scene of it alone; warnings that arise only then go to stderr, too. Throw
 /// InputError.
-std::unique_ptr<LimitSurface> build_surface(Model model);
-std::shared_ptr<const Object> build_object(Model model, const SceneOptions& options = {});
-Scene build_scene(Model model, const SceneOptions& options = {});
+std::unique_ptr<LimitSurface> build_surface(LoadedModel model);
+std::shared_ptr<const Object> build_object(LoadedModel model, const SceneOptions& options = {});
+Scene build_scene(LoadedModel model, const SceneOptions& options = {});
 
 }  // namespace shaolin

@@ -16,7 +16,7 @@ struct ObjectFigures {
   std::size_t faces = 0, limit_faces = 0, instances = 0;
 };
 
-ObjectFigures figures_of(Model& model) {
+ObjectFigures figures_of(LoadedModel& model) {
   ObjectFigures figures;
   figures.scheme = model.scheme;
   const std::unique_ptr<LimitSurface> surface = build_surface(std::move(model));
@@ -49,9 +49,9 @@ int scene_info(const ModelOptions& options) {
   Stage stage = load_stage(options);
   const SceneFile& scene = stage.scene;
   std::vector<Box> boxes;
-  for (const Model& model : stage.models) boxes.push_back(control_box(model.mesh));
+  for (const LoadedModel& model : stage.models) boxes.push_back(control_box(model.mesh));
   std::vector<ObjectFigures> objects;
-  for (Model& model : stage.models) objects.push_back(figures_of(model));
+  for (LoadedModel& model : stage.models) objects.push_back(figures_of(model));
 
   Box bounds;
   for (const SceneFile::Instance& instance : scene.instances) {

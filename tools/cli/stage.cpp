@@ -23,7 +23,7 @@ auto at_place(const std::string& file, const std::string& place, Act act) {
 
 std::string Stage::schemes() const {
   std::set<std::string> names;
-  for (const Model& model : models) names.insert(model.scheme);
+  for (const LoadedModel& model : models) names.insert(model.scheme);
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;

@@ -13,7 +13,7 @@ namespace shaolin {
 struct Stage {
   bool is_scene = false;  ///< a scene file; else a model, which is one object under the identity
   SceneFile scene;
-  std::vector<Model> models;  ///< of scene.objects
+  std::vector<LoadedModel> models;  ///< of scene.objects
 
   /// The schemes of the models, each once: "catmark, loop".
   std::string schemes() const;
