@@ -119,6 +119,16 @@ TEST_CASE("Two mirrors face to face end after four reflections", "[tools][cli][s
   CHECK(half.y() > 0);
 }
 
+TEST_CASE("A scene's pixels do not depend on the number of threads", "[tools][cli][scenes]") {
+  const Folder folder;
+  const std::string scene = data_file("scenes/mirrors.json");
+  const ExrImage one = render(folder, scene, {"--size", "120x80", "--threads", "1"});
+  const ExrImage four = render(folder, scene, {"--size", "120x80", "--threads", "4"});
+  CHECK(one.channels == four.channels);
+  std::set<std::uint32_t> seen(one.channels.at("instance").begin(), one.channels.at("instance").end());
+  CHECK(seen == std::set<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, none});
+}
+
 TEST_CASE("Materials, lights and background colour the picture", "[tools][cli][scenes]") {
   const Folder folder;
   folder.write("plate.obj", plate);

@@ -1,9 +1,11 @@
 /// Scene files: what they mean, and what is said of those that cannot be used.
 #include <cmath>
 
+#include "schemes/builtin.h"
 #include "schemes/errors.h"
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
+#include "tools/cli/json_text.h"
 #include "tools/cli/scene_file.h"
 #include "tools/cli/stage.h"
 
@@ -243,8 +245,30 @@ TEST_CASE("Groups that contain themselves are named", "[tools][scenes]") {
   check_complaint(R"({"objects": {)" + chain + R"(}, "instances": []})", ": groups are nested deeper than 256 levels");
 }
 
+TEST_CASE("The scenes of data/ can be used", "[tools][scenes]") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(data_file("scenes"))) {
+    if (!is_scene_file(entry.path()) || entry.path().filename() == "schema.json") continue;
+    CAPTURE(entry.path());
+    Stage stage = load_stage({entry.path(), {}, {}});
+    CHECK(stage.is_scene);
+    const std::size_t count = stage.scene.instances.size();
+    CHECK(count > 0);
+    CHECK(stage.scene.look.of_instance.size() == count);
+    CHECK(build_scene(stage).instances().size() == count);
+    ++scenes;
+  }
+  CHECK(scenes > 0);
+}
+
+TEST_CASE("The JSON Schema knows our schemes", "[tools][scenes]") {
+  const Json schema = read_json(data_file("scenes/schema.json"));
+  std::set<std::string> ours;
+  for (const BuiltinScheme& scheme : builtin_schemes()) ours.insert(scheme.name);
+  CHECK(schema["$defs"]["scheme"]["enum"].get<std::set<std::string>>() == ours);
+}
+
 TEST_CASE("Transforms that are singular together are refused", "[tools][scenes]") {
-  const std::string shrink = R"({"object": ")";
   std::string objects = R"("g0": {"model": "cube.obj"})";
   for (int level = 1; level <= 4; ++level)
     objects += ", \"g" + std::to_string(level) + R"(": {"instances": [{"object": "g)" + std::to_string(level - 1) +
