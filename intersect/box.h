@@ -64,6 +64,8 @@ struct TraversalRay {
 
   /// A distance in units of the given direction's length.
   double t(double distance) const { return distance / scaled_length_ / scale_; }
+  /// The distance of a t.
+  double distance(double t) const { return t * scaled_length_ * scale_; }
   /// The length of the given direction; infinite where it overflows.
   double length() const { return scaled_length_ * scale_; }
 

@@ -21,6 +21,7 @@ struct Hit {
   SurfaceParameter at;  ///< face, sub, u, v in the input's terms
   LimitSample sample;   ///< the limit position (it lies on the ray to rounding), the unit normal, derivatives
   int level = 0;        ///< the refinement level of the patch that was met: its parameter square has side 2^-level
+  int instance = 0;     ///< the index of the instance in its scene
 };
 
 /// Work done since the scene was committed; the sums over all threads.

@@ -1,34 +1,215 @@
 #include "scene.h"
 
-#include "scheme_scene.h"
+#include <tbb/enumerable_thread_specific.h>
+
+#include <atomic>
+#include <unordered_set>
+
+#include "../schemes/errors.h"
+#include "bvh.h"
+#include "placement.h"
 
 namespace shaolin {
 
 namespace {
 
-const SceneOptions& checked(const SceneOptions& options) {
-  if (options.method == Method::uniform && (options.level < 1 || options.level > 10))
-    throw InputError("tessellation level " + std::to_string(options.level) + " is out of range; expected 1 to 10");
-  return options;
+void check(const Ray& ray) {
+  const auto text = [](const Vec3& v) {
+    return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
+  };
+  if (!ray.origin.allFinite()) throw InputError("ray origin " + text(ray.origin) + " is not finite");
+  if (!ray.direction.allFinite()) throw InputError("ray direction " + text(ray.direction) + " is not finite");
+  if (ray.direction.isZero(0)) throw InputError("ray direction is zero; expected a direction of any other length");
+  if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
 }
 
 }  // namespace
 
+class Scene::Implementation {
+ public:
+  explicit Implementation(std::vector<Instance> instances);
+
+  template <class Answer>
+  Answer counted(const Ray& ray, Answer (Implementation::*query)(const Ray&, RayCounters&) const) const {
+    check(ray);
+    RayCounters counters;
+    const Answer answer = (this->*query)(ray, counters);
+    Statistics& local = own_counters();
+    counters.add_to(local);
+    ++local.rays;
+    local.hits += static_cast<bool>(answer);
+    return answer;
+  }
+
+  std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const {
+    return sole_ ? sole_->intersect(ray, counters) : intersect_instances(ray, counters);
+  }
+  bool occluded(const Ray& ray, RayCounters& counters) const {
+    return sole_ ? sole_->occluded(ray, counters) : occluded_by_instances(ray, counters);
+  }
+  Statistics statistics() const;
+  const Box& bounds() const { return bounds_; }
+  const std::vector<Instance>& instances() const { return instances_; }
+
+ private:
+  std::optional<Hit> intersect_instances(const Ray& ray, RayCounters& counters) const;
+  bool occluded_by_instances(const Ray& ray, RayCounters& counters) const;
+
+  /// This thread's counters. A thread asks one scene many times in a row, so it remembers its last answer: looking them
+  /// up is a twentieth of a ray that misses.
+  Statistics& own_counters() const {
+    thread_local std::uint64_t last_scene = 0;
+    thread_local Statistics* last = nullptr;
+    if (last_scene != serial_) {
+      last = &counters_.local();
+      last_scene = serial_;
+    }
+    return *last;
+  }
+
+  /// A number that no other scene ever has; 0 is none's.
+  static std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+  }
+
+  /// What the hierarchy's leaves stand for: instances whose objects have a surface.
+  struct Leaf {
+    Placement placement;
+    const Object* object;
+    int instance;
+  };
+
+  std::vector<Instance> instances_;
+  std::vector<const Object*> objects_;  ///< each once
+  const Object* sole_ = nullptr;        ///< the only instance's object, if that stands where it is
+  std::vector<Leaf> leaves_;            ///< none if there is a sole object
+  Bvh bvh_;
+  Box bounds_;
+  std::uint64_t serial_ = next_serial();
+  mutable tbb::enumerable_thread_specific<Statistics> counters_;
+};
+
+Scene::Implementation::Implementation(std::vector<Instance> instances) : instances_(std::move(instances)) {
+  std::unordered_set<const Object*> known;
+  std::vector<Box> boxes;
+  leaves_.reserve(instances_.size());
+  boxes.reserve(instances_.size());
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const Instance& instance = instances_[i];
+    const auto fail = [&](const std::string& what) { throw InputError("instance " + std::to_string(i) + ": " + what); };
+    if (!instance.object) fail("has no object; expected one from make_object()");
+    if (known.insert(instance.object.get()).second) objects_.push_back(instance.object.get());
+    try {
+      leaves_.push_back({Placement(instance.transform), instance.object.get(), static_cast<int>(i)});
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
+    const Box own = instance.object->bounds();
+    const Box box = leaves_.back().placement.is_identity() ? own : transformed(own, instance.transform);
+    if ((box.lower.array() > box.upper.array()).any()) {
+      leaves_.pop_back();
+      continue;
+    }
+    if (!box.lower.allFinite() || !box.upper.allFinite()) fail("the transform takes it beyond the range of numbers");
+    boxes.push_back(box);
+    bounds_.add(box);
+  }
+  if (instances_.size() == 1 && instances_.front().transform.matrix() == Affine::Identity().matrix()) {
+    sole_ = instances_.front().object.get();
+    bounds_ = sole_->bounds();
+    leaves_.clear();
+    return;
+  }
+  bvh_ = Bvh(boxes);
+}
+
+/// A farther instance is asked with the nearest t so far, and a little more: t and a distance along the ray, which the
+/// objects work with, differ by a few roundings, and of instances at equal t all must answer for the lowest to be
+/// found.
+std::optional<Hit> Scene::Implementation::intersect_instances(const Ray& ray, RayCounters& counters) const {
+  const TraversalRay traversal(ray);
+  const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
+  if (!box_ray) return {};
+  std::optional<Hit> best;
+  const Leaf* of_best = nullptr;
+  Ray reach = ray;
+  float box_far = box_ray->local(traversal.far);
+  bvh_.traverse(
+      *box_ray, [&] { return box_far; },
+      [&](int primitive) {
+        const Leaf& leaf = leaves_[static_cast<std::size_t>(primitive)];
+        const std::optional<Ray> local = leaf.placement.to_object(reach);
+        if (!local) return false;
+        std::optional<Hit> hit = leaf.object->intersect(*local, counters);
+        if (!hit) return false;
+        hit->instance = leaf.instance;
+        if (best && std::pair(best->t, best->instance) < std::pair(hit->t, hit->instance)) return false;
+        best = hit;
+        of_best = &leaf;
+        reach.tmax = std::min(ray.tmax, hit->t + 16 * unit_roundoff * std::abs(hit->t));
+        box_far = box_ray->local(traversal.distance(reach.tmax));
+        return false;
+      });
+  if (best) of_best->placement.to_world(best->sample);
+  return best;
+}
+
+bool Scene::Implementation::occluded_by_instances(const Ray& ray, RayCounters& counters) const {
+  const TraversalRay traversal(ray);
+  const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
+  if (!box_ray) return false;
+  bool met = false;
+  const float box_far = box_ray->local(traversal.far);
+  bvh_.traverse(
+      *box_ray, [&] { return box_far; },
+      [&](int primitive) {
+        const Leaf& leaf = leaves_[static_cast<std::size_t>(primitive)];
+        const std::optional<Ray> local = leaf.placement.to_object(ray);
+        met = local && leaf.object->occluded(*local, counters);
+        return met;
+      });
+  return met;
+}
+
+Statistics Scene::Implementation::statistics() const {
+  Statistics total;
+  for (const Statistics& local : counters_) {
+    total.rays += local.rays;
+    total.hits += local.hits;
+    total.hull_tests += local.hull_tests;
+    total.cells += local.cells;
+    total.newton_steps += local.newton_steps;
+  }
+  for (const Object* object : objects_) object->add_to(total);
+  total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);
+  return total;
+}
+
+Scene::Scene(std::vector<Instance> instances)
+    : implementation_(std::make_unique<const Implementation>(std::move(instances))) {}
 Scene::Scene(ControlMesh mesh, const std::string& scheme, const SceneOptions& options)
-    : implementation_(with_scheme(
-          scheme, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type, checked(options)); })) {}
+    : Scene({Instance{make_object(std::move(mesh), scheme, options)}}) {}
 Scene::Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks, const SceneOptions& options)
-    : implementation_(with_masks(
-          masks, [&](const auto& type) { return make_scheme_scene(std::move(mesh), type, checked(options)); })) {}
+    : Scene({Instance{make_object(std::move(mesh), masks, options)}}) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
-std::optional<Hit> Scene::intersect(const Ray& ray) const { return implementation_->intersect(ray); }
-bool Scene::occluded(const Ray& ray) const { return implementation_->occluded(ray); }
-const LimitSurface& Scene::surface() const { return implementation_->surface(); }
+std::optional<Hit> Scene::intersect(const Ray& ray) const {
+  return implementation_->counted(ray, &Implementation::intersect);
+}
+bool Scene::occluded(const Ray& ray) const { return implementation_->counted(ray, &Implementation::occluded); }
+const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }
-
 Box Scene::bounds() const { return implementation_->bounds(); }
+
+const LimitSurface& Scene::surface(int instance) const {
+  const std::vector<Instance>& all = instances();
+  if (instance < 0 || static_cast<std::size_t>(instance) >= all.size())
+    throw InputError("there is no instance " + std::to_string(instance) + "; the scene has " +
+                     std::to_string(all.size()));
+  return all[static_cast<std::size_t>(instance)].object->surface();
+}
 
 }  // namespace shaolin

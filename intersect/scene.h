@@ -1,59 +1,62 @@
 #pragma once
-/// The public face of the intersector: a mesh in, queries on its limit surface out.
+/// The public face of the intersector: objects and where they stand in, queries on their limit surfaces out.
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "../schemes/control_mesh.h"
-#include "box.h"
-#include "ray.h"
+#include "affine.h"
+#include "object.h"
 
 namespace shaolin {
 
-class LimitSurface;
-class SchemeMasks;
-
-/// What rays are intersected with: the limit surface, to rounding error; or, for comparison, the triangles of a
-/// tessellation, made when a ray first comes near (uniform.h).
-enum class Method { exact, uniform };
-
-struct SceneOptions {
-  Method method = Method::exact;
-  int level = 5;  ///< of Method::uniform: 1 to 10 refinement steps; time and memory grow as 4^level
+/// An object, and the map from its space to the world's. Instances share their object: its patches exist once.
+struct Instance {
+  std::shared_ptr<const Object> object;
+  Affine transform = Affine::Identity();
 };
 
-/// One limit surface, ready for rays. Queries are const and may run concurrently; refinement that they cause is kept
-/// and never changes an answer: results are bit-identical for any number of threads and any order of rays.
+/// Limit surfaces, ready for rays. Queries are const and may run concurrently; refinement that they cause is kept and
+/// never changes an answer: results are bit-identical for any number of threads and any order of rays.
 class Scene {
  public:
-  /// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces;
-  /// nothing is refined before a ray asks. Throws InputError as make_limit_surface() does, or for a level out of range.
+  /// Builds a hierarchy over the instances' boxes. O(n log n) for n instances. Throws InputError that names the
+  /// instance: no object, a transform that inverse() refuses, a box that exceeds the range of doubles.
+  explicit Scene(std::vector<Instance> instances);
+
+  /// One object, where it is: make_object() with these arguments, under the identity.
   explicit Scene(ControlMesh mesh, const std::string& scheme, const SceneOptions& options = {});
-  /// By any scheme, for instance one from load_plugin(). What the masks throw comes out of this or of the query that is
-  /// the first to need one.
   explicit Scene(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks, const SceneOptions& options = {});
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  /// The closest hit with tmin <= t <= tmax, or empty. Throws InputError for a direction that is zero or not finite,
-  /// an origin that is not finite or an interval that has a NaN; and, where the method is uniform, what
-  /// SubdivisionMesh::refine() throws.
+  /// The closest hit with tmin <= t <= tmax, or empty, in the world's space; where instances are met at equal t, the
+  /// one with the lowest index. Throws InputError for a direction that is zero or not finite, an origin that is not
+  /// finite or an interval that has a NaN; and, where the method is uniform, what SubdivisionMesh::refine() throws.
+  ///
+  /// The ray is rounded once more for each instance with a transform: by a few units in the last place of its origin's
+  /// distance from the object, times the condition of the map.
   std::optional<Hit> intersect(const Ray& ray) const;
 
-  /// True if any point of the surface lies on the ray. Throws as intersect() does; cheaper.
+  /// True if any point of a surface lies on the ray. Throws as intersect() does; cheaper.
   bool occluded(const Ray& ray) const;
 
-  const LimitSurface& surface() const;
+  const std::vector<Instance>& instances() const;
+
+  /// The surface of an instance's object, in the object's own space. Throws InputError if there is no such instance.
+  const LimitSurface& surface(int instance = 0) const;
+
+  /// Rays and hits are this scene's. Faces, patches and memory are those of the objects, each counted once, whichever
+  /// scenes they are in.
   Statistics statistics() const;
 
-  /// A box that contains the surface: of the control neighbourhoods of the faces with a limit.
+  /// A box that contains the surfaces; empty (lower > upper) if there are none.
   Box bounds() const;
 
-  class Implementation;  ///< defined in scheme_scene.h
-
  private:
-  std::unique_ptr<Implementation> implementation_;
+  class Implementation;
+  std::unique_ptr<const Implementation> implementation_;
 };
 
 }  // namespace shaolin

@@ -34,10 +34,11 @@ std::optional<std::array<double, count>> parse_list(std::string_view text) {
 }
 
 /// The image's up direction before it is made perpendicular to the view.
-Vec3 up_hint(const Vec3& forward) {
-  constexpr double parallel = 1e-6;  // sine of the angle below which y says nothing about the image's roll
-  if (forward.cross(Vec3::UnitY()).norm() > parallel) return Vec3::UnitY();
-  return forward.y() < 0 ? Vec3(-Vec3::UnitZ()) : Vec3(Vec3::UnitZ());
+Vec3 up_hint(const Vec3& forward, const Vec3& up) {
+  constexpr double parallel = 1e-6;  // sine of the angle below which `up` says nothing about the image's roll
+  if (forward.cross(up).norm() > parallel) return up;
+  const Vec3 other = std::abs(up.z()) > 0.9 ? Vec3::UnitY() : Vec3::UnitZ();
+  return forward.dot(up) < 0 ? Vec3(-other) : other;
 }
 
 }  // namespace
@@ -52,19 +53,32 @@ ImageSize parse_size(const std::string& text) {
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
-Camera parse_camera(const std::string& text) {
-  const auto parsed = parse_list<7>(text);
-  if (!parsed) throw std::invalid_argument("'" + text + "' is not ex,ey,ez,tx,ty,tz,fov: seven finite numbers");
-  const std::array<double, 7>& numbers = *parsed;
-  Camera camera;
-  camera.eye = {numbers[0], numbers[1], numbers[2]};
-  camera.target = {numbers[3], numbers[4], numbers[5]};
-  camera.fov = numbers[6];
+std::string fault_of(const Camera& camera) {
   const double distance = (camera.target - camera.eye).stableNorm();
   if (!(distance > 0) || !std::isfinite(distance))
-    throw std::invalid_argument("'" + text + "': the target must lie apart from the eye, at a finite distance");
-  if (!(camera.fov > 0 && camera.fov < 180))
-    throw std::invalid_argument("'" + text + "': fov, the vertical angle in degrees, must lie between 0 and 180");
+    return "the target must lie apart from the eye, at a finite distance";
+  if (!(camera.fov > 0 && camera.fov < 180)) return "fov, the vertical angle in degrees, must lie between 0 and 180";
+  if (!camera.up.allFinite() || camera.up.isZero(0)) return "up must be a finite vector of any length but zero";
+  return {};
+}
+
+Camera parse_camera(const std::string& text) {
+  Camera camera;
+  const auto set = [&camera](const auto& numbers) {
+    camera.eye = {numbers[0], numbers[1], numbers[2]};
+    camera.target = {numbers[3], numbers[4], numbers[5]};
+    camera.fov = numbers[6];
+  };
+  if (const auto seven = parse_list<7>(text)) {
+    set(*seven);
+  } else if (const auto ten = parse_list<10>(text)) {
+    set(*ten);
+    camera.up = {(*ten)[7], (*ten)[8], (*ten)[9]};
+  } else {
+    throw std::invalid_argument("'" + text + "' is not ex,ey,ez,tx,ty,tz,fov[,ux,uy,uz]: seven or ten finite numbers");
+  }
+  if (const std::string fault = fault_of(camera); !fault.empty())
+    throw std::invalid_argument("'" + text + "': " + fault);
   return camera;
 }
 
@@ -81,6 +95,11 @@ std::string to_string(const Camera& camera) {
       text += ',';
     }
   append(camera.fov);
+  if (camera.up != Vec3::UnitY())
+    for (int axis = 0; axis < 3; ++axis) {
+      text += ',';
+      append(camera.up[axis]);
+    }
   return text;
 }
 
@@ -98,7 +117,7 @@ Camera default_camera(const Box& bounds, ImageSize size) {
 View::View(const Camera& camera, ImageSize size)
     : camera_(camera), size_(size), half_height_(std::tan(0.5 * radians(camera.fov))) {
   forward_ = (camera.target - camera.eye).stableNormalized();
-  right_ = forward_.cross(up_hint(forward_)).normalized();
+  right_ = forward_.cross(up_hint(forward_, camera.up.stableNormalized())).normalized();
   up_ = right_.cross(forward_);
 }
 

@@ -19,14 +19,19 @@ ImageSize parse_size(const std::string& text);
 struct Camera {
   Vec3 eye = Vec3::UnitZ();
   Vec3 target = Vec3::Zero();
-  double fov = 40;  ///< the vertical opening angle, in degrees, between 0 and 180
+  double fov = 40;          ///< the vertical opening angle, in degrees, between 0 and 180
+  Vec3 up = Vec3::UnitY();  ///< what the image's up direction leans towards
 };
 
-/// Parses "ex,ey,ez,tx,ty,tz,fov": seven finite numbers, the target apart from the eye, 0 < fov < 180. Throws
+/// What is wrong with a camera, and what was expected: the target must lie apart from the eye, 0 < fov < 180, and `up`
+/// have a direction. Empty if nothing is.
+std::string fault_of(const Camera& camera);
+
+/// Parses "ex,ey,ez,tx,ty,tz,fov[,ux,uy,uz]": finite numbers that make a camera without a fault. Throws
 /// std::invalid_argument that says what was expected.
 Camera parse_camera(const std::string& text);
 
-/// The same text, which parses back to the same camera.
+/// The same text, which parses back to the same camera; without `up` where that is y.
 std::string to_string(const Camera& camera);
 
 /// Looks at the box's centre from the front, right and above, near enough that the box's bounding sphere just fits.
@@ -35,8 +40,9 @@ Camera default_camera(const Box& bounds, ImageSize size);
 /// A camera with an image in front of it.
 class View {
  public:
-  /// The image's up direction leans towards +y; looking along +y or -y, towards +z or -z (as a camera that was tilted
-  /// there from looking along -z).
+  /// The image's up direction leans towards the camera's `up`. Looking along that, or against it, it leans towards +z
+  /// when looking up and -z when looking down, as a camera that was tilted there from looking along -z (if `up` is
+  /// along z: +y and -y).
   View(const Camera& camera, ImageSize size);
 
   /// The ray through the centre of a pixel; row 0 is the top row. Its direction is unit, so t is the distance.

@@ -51,7 +51,7 @@ void write_row(CsvWriter& writer, const SurfaceParameter& at, const std::optiona
 }
 
 void eval_in_arena(const EvalOptions& options) {
-  Model model = load_model(options.model);
+  LoadedModel model = load_model(options.model);
   const CsvTable table = read_csv(options.parameters, {4});
   check_header(table, options.parameters.string(), parameter_columns);
 

@@ -7,7 +7,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
-#include <array>
+#include <vector>
 
 namespace shaolin {
 namespace {
@@ -19,22 +19,24 @@ struct Channel {
   const void* first;
 };
 
-std::array<Channel, 15> channels(const Pixel& first) {
-  return {{{"R", Imf::FLOAT, &first.color[0]},
-           {"G", Imf::FLOAT, &first.color[1]},
-           {"B", Imf::FLOAT, &first.color[2]},
-           {"A", Imf::FLOAT, &first.alpha},
-           {"Z", Imf::FLOAT, &first.z},
-           {"N.X", Imf::FLOAT, &first.normal[0]},
-           {"N.Y", Imf::FLOAT, &first.normal[1]},
-           {"N.Z", Imf::FLOAT, &first.normal[2]},
-           {"P.X", Imf::FLOAT, &first.position[0]},
-           {"P.Y", Imf::FLOAT, &first.position[1]},
-           {"P.Z", Imf::FLOAT, &first.position[2]},
-           {"uv.U", Imf::FLOAT, &first.uv[0]},
-           {"uv.V", Imf::FLOAT, &first.uv[1]},
-           {"face", Imf::UINT, &first.face},
-           {"level", Imf::UINT, &first.level}}};
+std::vector<Channel> channels(const Pixel& first, bool instances) {
+  std::vector<Channel> list{{"R", Imf::FLOAT, &first.color[0]},
+                            {"G", Imf::FLOAT, &first.color[1]},
+                            {"B", Imf::FLOAT, &first.color[2]},
+                            {"A", Imf::FLOAT, &first.alpha},
+                            {"Z", Imf::FLOAT, &first.z},
+                            {"N.X", Imf::FLOAT, &first.normal[0]},
+                            {"N.Y", Imf::FLOAT, &first.normal[1]},
+                            {"N.Z", Imf::FLOAT, &first.normal[2]},
+                            {"P.X", Imf::FLOAT, &first.position[0]},
+                            {"P.Y", Imf::FLOAT, &first.position[1]},
+                            {"P.Z", Imf::FLOAT, &first.position[2]},
+                            {"uv.U", Imf::FLOAT, &first.uv[0]},
+                            {"uv.V", Imf::FLOAT, &first.uv[1]},
+                            {"face", Imf::UINT, &first.face},
+                            {"level", Imf::UINT, &first.level}};
+  if (instances) list.push_back({"instance", Imf::UINT, &first.instance});
+  return list;
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void write_exr(const std::filesystem::path& file, const Image& image, const ExrN
   header.insert("scheme", Imf::StringAttribute(notes.scheme));
 
   Imf::FrameBuffer frame_buffer;
-  for (const Channel& channel : channels(image.pixels.front())) {
+  for (const Channel& channel : channels(image.pixels.front(), notes.instances)) {
     header.channels().insert(channel.name, Imf::Channel(channel.type));
     // The library's slices are writable because reading uses them, too.
     char* const base = const_cast<char*>(static_cast<const char*>(channel.first));

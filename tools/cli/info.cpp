@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "tools/cli/mesh_counts.h"
+#include "tools/cli/scene_info.h"
+#include "tools/cli/stage.h"
 
 namespace shaolin {
 namespace {
@@ -103,7 +105,8 @@ void print_warnings(const ControlMesh& mesh) {
 }  // namespace
 
 int info(const InfoOptions& options) {
-  Model model = load_model(options.model);
+  if (is_scene_file(options.model.file)) return scene_info(options.model);
+  LoadedModel model = load_model(options.model);
   const std::string scheme = model.scheme;
   const std::unique_ptr<LimitSurface> surface = build_surface(std::move(model));
   const ControlMesh& mesh = surface->control_mesh();
@@ -120,8 +123,10 @@ int info(const InfoOptions& options) {
 void add_info(CLI::App& app, Command& command) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* sub =
-      app.add_subcommand("info", "Print counts of faces, edges and vertices by kind, the bounding box, and warnings");
-  add_model_options(*sub, options->model);
+      app.add_subcommand("info",
+                         "Print counts of faces, edges and vertices by kind, the bounding box, and warnings; of a "
+                         "scene, its objects and instances");
+  add_stage_options(*sub, options->model);
   sub->callback([options, &command] { command = [options] { return info(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include "schemes/builtin.h"
 #include "schemes/load_plugin.h"
 #include "schemes/obj.h"
+#include "tools/cli/scene_file.h"
 
 namespace shaolin {
 namespace {
@@ -31,8 +32,8 @@ CLI::Validator is_scheme_name() {
   return CLI::IsMember(names);
 }
 
-void add_model_options(CLI::App& app, ModelOptions& options) {
-  app.add_option("MODEL", options.file, "The control mesh: an OBJ file with OpenSubdiv's tag lines")->required();
+void add_model_options(CLI::App& app, ModelOptions& options, const std::string& what) {
+  app.add_option("MODEL", options.file, what)->required();
   CLI::Option* const scheme = app.add_option(
       "--scheme", options.scheme,
       "Subdivision scheme: " + builtin_scheme_names() +
@@ -57,8 +58,10 @@ void add_method_option(CLI::App& app, SceneOptions& options) {
       ->type_name("LEVEL");
 }
 
-Model load_model(const ModelOptions& options) {
-  Model model;
+LoadedModel load_model(const ModelOptions& options) {
+  if (is_scene_file(options.file))
+    throw InputError("is a scene file; expected a model (an OBJ file)", options.file.string());
+  LoadedModel model;
   MeshPlaces places;
   model.mesh = read_obj(options.file, places);
   if (!options.plugin.empty()) {
@@ -73,7 +76,7 @@ Model load_model(const ModelOptions& options) {
   return model;
 }
 
-std::unique_ptr<LimitSurface> build_surface(Model model) {
+std::unique_ptr<LimitSurface> build_surface(LoadedModel model) {
   const std::size_t printed = model.mesh.warnings.size();
   auto surface = model.masks ? make_limit_surface(std::move(model.mesh), model.masks)
                              : make_limit_surface(std::move(model.mesh), model.scheme);
@@ -81,12 +84,16 @@ std::unique_ptr<LimitSurface> build_surface(Model model) {
   return surface;
 }
 
-Scene build_scene(Model model, const SceneOptions& options) {
+std::shared_ptr<const Object> build_object(LoadedModel model, const SceneOptions& options) {
   const std::size_t printed = model.mesh.warnings.size();
-  Scene scene = model.masks ? Scene(std::move(model.mesh), model.masks, options)
-                            : Scene(std::move(model.mesh), model.scheme, options);
-  print_warnings(scene.surface().control_mesh(), printed);
-  return scene;
+  auto object = model.masks ? make_object(std::move(model.mesh), model.masks, options)
+                            : make_object(std::move(model.mesh), model.scheme, options);
+  print_warnings(object->surface().control_mesh(), printed);
+  return object;
+}
+
+Scene build_scene(LoadedModel model, const SceneOptions& options) {
+  return Scene({Instance{build_object(std::move(model), options)}});
 }
 
 }  // namespace shaolin

@@ -25,25 +25,28 @@ void add_method_option(CLI::App& app, SceneOptions& options);
 /// Accepts the names of the built-in schemes.
 CLI::Validator is_scheme_name();
 
-/// Adds the positional MODEL (required), and --scheme and --plugin, which exclude each other.
-void add_model_options(CLI::App& app, ModelOptions& options);
+/// Adds the positional MODEL (required), and --scheme and --plugin, which exclude each other. `what` describes MODEL.
+void add_model_options(CLI::App& app, ModelOptions& options,
+                       const std::string& what = "The control mesh: an OBJ file with OpenSubdiv's tag lines");
 
 /// Adds --plugin FILE.
 CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file);
 
 /// A mesh as read, and the scheme to subdivide it with.
-struct Model {
+struct LoadedModel {
   ControlMesh mesh;
   std::string scheme;                        ///< its name
   std::shared_ptr<const SchemeMasks> masks;  ///< of a plug-in; null: `scheme` is built in
 };
 
 /// Reads the OBJ file and settles the scheme; a plug-in is loaded, and runs. Prints the mesh's warnings to stderr.
-/// Throws InputError.
-Model load_model(const ModelOptions& options);
+/// Throws InputError, for a scene file, too.
+LoadedModel load_model(const ModelOptions& options);
 
-/// Builds the surface or the scene; warnings that arise only then go to stderr, too. Throw InputError.
-std::unique_ptr<LimitSurface> build_surface(Model model);
-Scene build_scene(Model model, const SceneOptions& options = {});
+/// Build the surface, the object or a scene of it alone; warnings that arise only then go to stderr, too. Throw
+/// InputError.
+std::unique_ptr<LimitSurface> build_surface(LoadedModel model);
+std::shared_ptr<const Object> build_object(LoadedModel model, const SceneOptions& options = {});
+Scene build_scene(LoadedModel model, const SceneOptions& options = {});
 
 }  // namespace shaolin

@@ -38,7 +38,7 @@ Picture beauty_picture(const Image& image) {
     for (int x = 0; x < picture.width; ++x) {
       const Pixel& pixel = image.at(x, y);
       const auto& [r, g, b] = pixel.color;
-      picture.at(x, y) = pixel.hit() ? srgb_from_linear({r, g, b}) : background;
+      picture.at(x, y) = pixel.alpha > 0 ? srgb_from_linear({r, g, b}) : background;
     }
   }
   return picture;

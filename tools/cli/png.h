@@ -30,7 +30,7 @@ struct Picture {
   std::vector<SrgbColor> pixels;  ///< row by row, the top row first
 };
 
-/// The image's colours over a light backdrop.
+/// The image's colours, over a light backdrop where it has none.
 Picture beauty_picture(const Image& image);
 
 /// Throws std::runtime_error if the file cannot be written.

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "schemes/errors.h"
 #include "tools/cli/exr.h"
@@ -17,6 +18,7 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/render_stats.h"
 #include "tools/cli/shade.h"
+#include "tools/cli/stage.h"
 #include "tools/cli/threads.h"
 
 namespace shaolin {
@@ -29,10 +31,16 @@ std::array<float, 3> to_float(const Vec3& v) {
 }
 
 /// One sample, at the pixel's centre: the image depends on nothing else.
-Pixel render_pixel(const Scene& scene, const Shader& shader, const Ray& ray) {
+Pixel render_pixel(const Scene& scene, const Shader& shader, const std::optional<Vec3>& background, const Ray& ray) {
   Pixel pixel;
   const std::optional<Hit> hit = scene.intersect(ray);
-  if (!hit) return pixel;
+  if (!hit) {
+    if (background) {
+      pixel.color = to_float(*background);
+      pixel.alpha = 1;
+    }
+    return pixel;
+  }
   pixel.color = shader.shade(ray, *hit);
   pixel.alpha = 1;
   pixel.z = static_cast<float>(hit->t);
@@ -41,13 +49,14 @@ Pixel render_pixel(const Scene& scene, const Shader& shader, const Ray& ray) {
   pixel.uv = {static_cast<float>(hit->at.u), static_cast<float>(hit->at.v)};
   pixel.face = static_cast<std::uint32_t>(hit->at.face);
   pixel.level = static_cast<std::uint32_t>(hit->level);
+  pixel.instance = static_cast<std::uint32_t>(hit->instance);
   return pixel;
 }
 
 /// Renders in square tiles: neighbouring rays refine the same patches.
-Image render_image(const Scene& scene, const View& view) {
+Image render_image(const Scene& scene, const View& view, const Look& look) {
   Image image(view.size());
-  const Shader shader(scene, view);
+  const Shader shader(scene, view, look);
   const int columns = (image.size.width + tile_side - 1) / tile_side;
   const int rows = (image.size.height + tile_side - 1) / tile_side;
   Progress progress(static_cast<std::size_t>(columns) * rows);
@@ -55,7 +64,7 @@ Image render_image(const Scene& scene, const View& view) {
     const int left = tile % columns * tile_side, top = tile / columns * tile_side;
     for (int y = top; y < std::min(top + tile_side, image.size.height); ++y)
       for (int x = left; x < std::min(left + tile_side, image.size.width); ++x)
-        image.at(x, y) = render_pixel(scene, shader, view.ray(x, y));
+        image.at(x, y) = render_pixel(scene, shader, look.background, view.ray(x, y));
     progress.advance();
   };
   tbb::parallel_for(
@@ -97,19 +106,40 @@ void print_summary(const RenderOptions& options, const RenderStats& stats) {
               stats.build_seconds, stats.render_seconds, stats.write_seconds);
 }
 
-/// What a default camera frames. A scene's bounds hold for certain, which can make them several times as wide as the
-/// surface where masks have negative weights; the control points of its faces, with a quarter of their extent around
-/// for what such schemes overshoot, are not.
-Box frame_of(const Scene& scene) {
-  const LimitSurface& surface = scene.surface();
+/// An object's share of what a default camera frames. Its bounds hold for certain, which can make them several times as
+/// wide as the surface where masks have negative weights; the control points of its faces, with a quarter of their
+/// extent around for what such schemes overshoot, are not.
+Box frame_of(const Object& object) {
+  const LimitSurface& surface = object.surface();
   const ControlMesh& mesh = surface.control_mesh();
   Box control;
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (!surface.has_limit(f)) continue;
     for (const int vertex : mesh.face(f)) control.add(mesh.positions[static_cast<std::size_t>(vertex)]);
   }
-  const Box wide = control.expanded(0.25), bounds = scene.bounds();
+  const Box wide = control.expanded(0.25), bounds = object.bounds();
   return {bounds.lower.cwiseMax(wide.lower), bounds.upper.cwiseMin(wide.upper)};
+}
+
+Box frame_of(const Scene& scene) {
+  std::unordered_map<const Object*, Box> frames;
+  Box all;
+  for (const Instance& instance : scene.instances()) {
+    const auto [known, is_new] = frames.try_emplace(instance.object.get());
+    if (is_new) known->second = frame_of(*instance.object);
+    const bool moved = instance.transform.matrix() != Affine::Identity().matrix();
+    all.add(moved ? transformed(known->second, instance.transform) : known->second);
+  }
+  return all;
+}
+
+Camera choose_camera(const RenderOptions& options, const Stage& stage, const Scene& scene) {
+  if (options.camera) return *options.camera;
+  if (stage.scene.camera) return *stage.scene.camera;
+  if (scene.statistics().faces == 0)
+    throw InputError("no face has a limit surface, so that there is nothing to frame; expected --camera",
+                     options.model.file.string());
+  return default_camera(frame_of(scene), options.size);
 }
 
 void render_in_arena(const RenderOptions& options) {
@@ -118,26 +148,25 @@ void render_in_arena(const RenderOptions& options) {
   stats.size = options.size;
   Stopwatch stopwatch;
 
-  Model model = load_model(options.model);
+  Stage stage = load_stage(options.model);
   stats.model = options.model.file.string();
-  stats.scheme = model.scheme;
+  stats.scheme = stage.schemes();
+  if (stage.is_scene) stats.instances = stage.scene.instances.size();
   stats.load_seconds = stopwatch.lap();
 
-  const Scene scene = build_scene(std::move(model), options.scene);
+  const Scene scene = build_scene(stage, options.scene);
   stats.build_seconds = stopwatch.lap();
 
   OutputFiles files(options);
-  if (!options.camera && scene.statistics().faces == 0)
-    throw InputError("no face has a limit surface, so that there is nothing to frame; expected --camera", stats.model);
-  const View view(options.camera ? *options.camera : default_camera(frame_of(scene), options.size), options.size);
-  const Image image = render_image(scene, view);
+  const View view(choose_camera(options, stage, scene), options.size);
+  const Image image = render_image(scene, view, stage.scene.look);
   stats.render_seconds = stopwatch.lap();
   stats.camera = to_string(view.camera());
   stats.statistics = scene.statistics();
   stats.pixels_hit = static_cast<std::size_t>(
       std::count_if(image.pixels.begin(), image.pixels.end(), [](const Pixel& pixel) { return pixel.hit(); }));
 
-  write_exr(files.exr.path(), image, {stats.camera, stats.scheme}, stats.threads);
+  write_exr(files.exr.path(), image, {stats.camera, stats.scheme, stage.is_scene}, stats.threads);
   if (files.png) write_png(files.png->path(), beauty_picture(image));
   if (files.level_png) write_png(files.level_png->path(), level_map(image, view));
   stats.write_seconds = stopwatch.lap();
@@ -168,11 +197,11 @@ int render(const RenderOptions& options) {
 void add_render(CLI::App& app, Command& command) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* sub = app.add_subcommand("render", "Render a picture of the limit surface");
-  add_model_options(*sub, options->model);
+  add_stage_options(*sub, options->model);
   add_method_option(*sub, options->scene);
   sub->add_option("-o,--output", options->exr,
                   "OpenEXR file with the channels R G B A (linear), Z (distance from the eye), N.X/Y/Z, P.X/Y/Z, "
-                  "uv.U/V, face and level (UINT; 4294967295 where nothing was hit)")
+                  "uv.U/V, face and level (UINT; 4294967295 where nothing was hit); of scenes, instance, too")
       ->required()
       ->type_name("FILE");
   sub->add_option("--png", options->png, "The same picture as PNG")->type_name("FILE");
@@ -183,8 +212,9 @@ void add_render(CLI::App& app, Command& command) {
       ->type_name("WxH")
       ->default_str("800x800");
   sub->add_option_function<std::string>("--camera", parse_into(options->camera, parse_camera, "--camera"),
-                                        "Eye, target, and vertical opening angle in degrees: ex,ey,ez,tx,ty,tz,fov. y "
-                                        "is up (default: frames the model from the front, right and above, fov 40)")
+                                        "Eye, target, vertical opening angle in degrees, and up (default: y): "
+                                        "ex,ey,ez,tx,ty,tz,fov[,ux,uy,uz] (default: "
+                                        "the scene's; without one, frames all from the front, right and above, fov 40)")
       ->type_name("CAMERA");
   add_threads_option(*sub, options->threads);
   sub->add_option("--stats", options->stats, "JSON file with times, memory and counts of the work done")

@@ -1,5 +1,5 @@
 #pragma once
-/// `shaolin render`: a picture of the limit surface.
+/// `shaolin render`: a picture of limit surfaces, of one model or a scene file.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
@@ -18,7 +18,7 @@ struct RenderOptions {
   std::filesystem::path level_png;  ///< --png-level
   std::filesystem::path stats;      ///< --stats
   ImageSize size;                   ///< --size
-  std::optional<Camera> camera;     ///< --camera; without it, the camera frames the model
+  std::optional<Camera> camera;     ///< --camera; without it the scene file's, or one that frames all
   int threads = 0;                  ///< --threads; 0: all
 };
 

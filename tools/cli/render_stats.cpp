@@ -25,19 +25,21 @@ Json to_json(const Statistics& statistics) {
 }
 
 Json to_json(const RenderStats& stats) {
-  return {{"model", stats.model},
-          {"scheme", stats.scheme},
-          {"camera", stats.camera},
-          {"threads", stats.threads},
-          {"image", {{"width", stats.size.width}, {"height", stats.size.height}, {"pixels_hit", stats.pixels_hit}}},
-          {"seconds",
-           {{"load", stats.load_seconds},
-            {"build", stats.build_seconds},
-            {"render", stats.render_seconds},
-            {"write", stats.write_seconds},
-            {"total", stats.total_seconds()}}},
-          {"peak_memory_bytes", peak_memory()},
-          {"statistics", to_json(stats.statistics)}};
+  Json json{{"model", stats.model},
+            {"scheme", stats.scheme},
+            {"camera", stats.camera},
+            {"threads", stats.threads},
+            {"image", {{"width", stats.size.width}, {"height", stats.size.height}, {"pixels_hit", stats.pixels_hit}}},
+            {"seconds",
+             {{"load", stats.load_seconds},
+              {"build", stats.build_seconds},
+              {"render", stats.render_seconds},
+              {"write", stats.write_seconds},
+              {"total", stats.total_seconds()}}},
+            {"peak_memory_bytes", peak_memory()},
+            {"statistics", to_json(stats.statistics)}};
+  if (stats.instances) json["instances"] = *stats.instances;
+  return json;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "intersect/ray.h"
@@ -28,7 +29,8 @@ class Stopwatch {
 
 struct RenderStats {
   std::string model, scheme;
-  std::string camera;  ///< as --camera takes it
+  std::string camera;                    ///< as --camera takes it
+  std::optional<std::size_t> instances;  ///< of a scene file
   ImageSize size;
   int threads = 1;
   std::size_t pixels_hit = 0;
@@ -46,7 +48,7 @@ std::size_t peak_memory();
 
 /// Writes a JSON object:
 ///
-///     model, scheme, camera, threads, peak_memory_bytes
+///     model, scheme, camera, threads, peak_memory_bytes, instances (of scene files)
 ///     image       { width, height, pixels_hit }
 ///     seconds     { load, build, render, write, total }
 ///     statistics  { every field of Statistics, faces_never_touched }

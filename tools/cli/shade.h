@@ -1,30 +1,40 @@
 #pragma once
-/// The picture's light: a key light with shadows, and a soft fill.
+/// The picture's colours: lights with shadows, a soft fill, mirrors.
 #include <array>
 
 #include "intersect/scene.h"
 #include "tools/cli/camera.h"
+#include "tools/cli/look.h"
 
 namespace shaolin {
 
-/// Shades hits of one scene, seen in one view. A key light stands beside the camera, up and to the left; a fill from
-/// all around, brighter from above, keeps shadows from being black. Both sides of the surface look the same.
+/// Shades hits of one scene, seen in one view. Without lights, a key light stands beside the camera, up and to the
+/// left; a fill from all around, brighter from above, keeps shadows from being black. Both sides of the surface look
+/// the same.
 class Shader {
  public:
-  /// `scene` must outlive the shader.
-  Shader(const Scene& scene, const View& view);
+  /// A ray is reflected this often; the mirror after that shows its own colour alone.
+  static constexpr int most_reflections = 4;
 
-  /// Linear colour of the surface at a hit of `ray`; casts at most one shadow ray. May be called concurrently.
+  /// `scene` must outlive the shader.
+  Shader(const Scene& scene, const View& view, Look look = {});
+
+  /// Linear colour of the surface at a hit of `ray`; casts at most one shadow ray for each light there and wherever its
+  /// reflection leads. May be called concurrently.
   std::array<float, 3> shade(const Ray& ray, const Hit& hit) const;
 
  private:
+  Vec3 color(const Ray& ray, const Hit& hit, int reflections_left) const;
+  Vec3 reflection(const Ray& ray, const Vec3& position, const Vec3& normal, int reflections_left) const;
+  /// The light from all around that comes against a direction.
+  Vec3 fill(const Vec3& direction) const;
   /// `normal` looks to the side of the surface that is lit.
-  bool lit(const Vec3& position, const Vec3& normal) const;
+  bool lit(const PointLight& light, const Vec3& position, const Vec3& normal) const;
 
   const Scene& scene_;
-  Vec3 light_;  ///< the key light's position
+  Look look_;  ///< with the key light, if there are no others
   Vec3 up_;
-  double shadow_offset_;  ///< shadow rays start this far off the surface
+  double offset_;  ///< rays from a surface start this far off it
 };
 
 }  // namespace shaolin

@@ -38,7 +38,7 @@ struct Samples {
 constexpr Samples by_opensubdiv_default{10000, 30000}, by_masks_default{300, 300};
 
 /// OpenSubdiv, or for a scheme that it does not have the masks themselves.
-std::unique_ptr<const Oracle> make_oracle(const Model& model) {
+std::unique_ptr<const Oracle> make_oracle(const LoadedModel& model) {
   if (!model.masks && OpenSubdivOracle::knows(model.scheme))
     return std::make_unique<OpenSubdivOracle>(model.mesh, model.scheme);
   return std::make_unique<MaskOracle>(model.mesh, model.masks ? model.masks : builtin_masks(model.scheme));
@@ -46,7 +46,7 @@ std::unique_ptr<const Oracle> make_oracle(const Model& model) {
 
 Validation check_model(const ValidateOptions& options) {
   Stopwatch stopwatch;
-  Model model = load_model(options.model);
+  LoadedModel model = load_model(options.model);
   const bool by_opensubdiv = !model.masks && OpenSubdivOracle::knows(model.scheme);
   const std::unique_ptr<const Oracle> oracle = make_oracle(model);
   Validation result{.model = options.model.file.string(),

@@ -1,0 +1,58 @@
+#pragma once
+/// What a scene is made of: one mesh with its limit surface, ready for rays, shared by all instances that show it.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "../schemes/control_mesh.h"
+#include "box.h"
+#include "counters.h"
+#include "ray.h"
+
+namespace shaolin {
+
+class LimitSurface;
+class SchemeMasks;
+
+/// What rays are intersected with: the limit surface, to rounding error; or, for comparison, the triangles of a
+/// tessellation, made when a ray first comes near (uniform.h).
+enum class Method { exact, uniform };
+
+struct SceneOptions {
+  Method method = Method::exact;
+  int level = 5;  ///< of Method::uniform: 1 to 10 refinement steps; time and memory grow as 4^level
+};
+
+/// A limit surface and its intersector, in the coordinates of its control mesh. Queries are const and may run
+/// concurrently, from several scenes, too; refinement that they cause is kept and never changes an answer.
+/// make_object() makes one, a Scene asks it.
+class Object {
+ public:
+  virtual ~Object() = default;
+
+  virtual const LimitSurface& surface() const = 0;
+
+  /// A box that contains the surface: of the control neighbourhoods of the faces with a limit. Empty (lower > upper) if
+  /// there are none.
+  virtual Box bounds() const = 0;
+
+  /// What rays have made so far: faces, faces_touched, patches_split and bytes. The other fields are a scene's.
+  virtual void add_to(Statistics& total) const = 0;
+
+  /// The closest hit with tmin <= t <= tmax, or empty. A scene has checked the ray's numbers.
+  virtual std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const = 0;
+
+  /// True if any point of the surface lies on the ray; as intersect(), cheaper.
+  virtual bool occluded(const Ray& ray, RayCounters& counters) const = 0;
+};
+
+/// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces; nothing is
+/// refined before a ray asks. Throws InputError as make_limit_surface() does, or for a level out of range.
+std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::string& scheme,
+                                          const SceneOptions& options = {});
+/// By any scheme, for instance one from load_plugin(). What the masks throw comes out of this or of the query that is
+/// the first to need one.
+std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks,
+                                          const SceneOptions& options = {});
+
+}  // namespace shaolin

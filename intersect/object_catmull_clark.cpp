@@ -1,0 +1,7 @@
+#include "scheme_object.inl"
+
+namespace shaolin {
+
+template std::shared_ptr<const Object> make_scheme_object(ControlMesh, const CatmullClark&, const SceneOptions&);
+
+}  // namespace shaolin

@@ -1,0 +1,8 @@
+#include "scheme_object.inl"
+
+namespace shaolin {
+
+template std::shared_ptr<const Object> make_scheme_object(ControlMesh, const RuntimeScheme<FaceKind::triangle>&,
+                                                          const SceneOptions&);
+
+}  // namespace shaolin

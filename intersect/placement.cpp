@@ -1,0 +1,31 @@
+#include "placement.h"
+
+namespace shaolin {
+
+Placement::Placement(const Affine& to_world)
+    : to_world_(to_world),
+      to_object_(inverse(to_world).linear()),
+      normals_(to_object_.transpose()),
+      identity_(to_world.matrix() == Affine::Identity().matrix()) {
+  // A power of two, so that squares of lengths stay within range.
+  normals_ *= std::scalbn(1.0, -std::ilogb(normals_.cwiseAbs().maxCoeff()));
+}
+
+std::optional<Ray> Placement::to_object(const Ray& ray) const {
+  if (identity_) return ray;
+  const Ray local{to_object_ * (ray.origin - to_world_.translation()), to_object_ * ray.direction, ray.tmin, ray.tmax};
+  if (!local.origin.allFinite() || !local.direction.allFinite() || local.direction.isZero(0)) return {};
+  return local;
+}
+
+void Placement::to_world(LimitSample& sample) const {
+  if (identity_) return;
+  sample.position = to_world_ * sample.position;
+  sample.normal = (normals_ * sample.normal).normalized();
+  if (!sample.derivatives) return;
+  for (Vec3 Derivatives::*derivative :
+       {&Derivatives::du, &Derivatives::dv, &Derivatives::duu, &Derivatives::duv, &Derivatives::dvv})
+    (*sample.derivatives).*derivative = to_world_.linear() * ((*sample.derivatives).*derivative);
+}
+
+}  // namespace shaolin

@@ -1,7 +1,0 @@
-#include "scheme_scene.inl"
-
-namespace shaolin {
-
-template std::unique_ptr<Scene::Implementation> make_scheme_scene(ControlMesh, const Loop&, const SceneOptions&);
-
-}  // namespace shaolin

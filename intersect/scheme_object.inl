@@ -1,0 +1,42 @@
+#pragma once
+/// The definition of make_scheme_object().
+#include "scheme_object.h"
+#include "shaolin.h"
+#include "uniform.h"
+
+namespace shaolin {
+
+namespace detail {
+
+/// The surface and its intersector: ShaoLin or one of the methods that it is compared with.
+template <Scheme S, class Intersector>
+class SchemeObject final : public Object {
+ public:
+  /// `more` goes to the intersector, after the surface.
+  template <class... More>
+  explicit SchemeObject(ControlMesh mesh, const S& scheme, More... more)
+      : surface_(std::move(mesh), scheme), intersector_(surface_, more...) {}
+
+  const LimitSurface& surface() const override { return surface_; }
+  Box bounds() const override { return intersector_.bounds(); }
+  void add_to(Statistics& total) const override { intersector_.add_to(total); }
+  std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const override {
+    return intersector_.intersect(ray, counters);
+  }
+  bool occluded(const Ray& ray, RayCounters& counters) const override { return intersector_.occluded(ray, counters); }
+
+ private:
+  SchemeSurface<S> surface_;
+  Intersector intersector_;
+};
+
+}  // namespace detail
+
+template <Scheme S>
+std::shared_ptr<const Object> make_scheme_object(ControlMesh mesh, const S& scheme, const SceneOptions& options) {
+  if (options.method == Method::uniform)
+    return std::make_shared<detail::SchemeObject<S, Uniform<S>>>(std::move(mesh), scheme, options.level);
+  return std::make_shared<detail::SchemeObject<S, ShaoLin<S, ExactFinish>>>(std::move(mesh), scheme);
+}
+
+}  // namespace shaolin
