@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
-from generator import basic, col_henge, frogship  # noqa: E402
+from generator import basic, col_henge, eggs_n_bunnies, frogship  # noqa: E402
 from generator.rook import rook  # noqa: E402
 from generator.whale import whale  # noqa: E402
 
@@ -13,7 +13,7 @@ MODELS = [
     basic.cube_creases, basic.dart, basic.hole, basic.loop_torus, basic.ngon_body, basic.pole, basic.sail, basic.saddle,
     basic.tetrahedron, basic.torus, rook, whale,
 ]
-SCENES = [frogship, col_henge]
+SCENES = [frogship, col_henge, eggs_n_bunnies]
 
 
 def write(file, text):
