@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the models and scenes of this folder: generate.py [FOLDER]. The same bytes on every machine; a test compares them."""
+"""Writes the models and scenes of this folder: generate.py [FOLDER].
+
+The same bytes on every machine; a test compares them.
+"""
 import sys
 from pathlib import Path
 

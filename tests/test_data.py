@@ -42,6 +42,25 @@ class Count:
         return sum(line.startswith("f ") for line in lines)
 
 
+def winding_fault(file):
+    """What is wrong with the sides of a model's faces: neighbours must agree, and a closed one show its outside."""
+    lines = [line.split() for line in file.read_text().splitlines()]
+    points = [[float(x) for x in words[1:]] for words in lines if words[0] == "v"]
+    faces = [[int(v) - 1 for v in words[1:]] for words in lines if words[0] == "f"]
+    edges = [edge for face in faces for edge in zip(face, face[1:] + face[:1])]
+    if len(set(edges)) < len(edges):
+        return "neighbouring faces wind differently"
+    if {v for face in faces for v in face} != set(range(len(points))):
+        return "has isolated points"
+    closed = {(b, a) for a, b in edges} == set(edges)
+    volume = sum(determinant(*(points[v] for v in (f[0], f[i], f[i + 1]))) for f in faces for i in range(1, len(f) - 1))
+    return "shows its inside" if closed and volume <= 0 else None
+
+
+def determinant(a, b, c):
+    return sum(a[i] * (b[i - 2] * c[i - 1] - b[i - 1] * c[i - 2]) for i in range(3))
+
+
 def faults(name, count):
     scheme = count.scene["scheme"]
     if scheme == "loop" and count.faces != FACES.get(name):
@@ -67,8 +86,11 @@ def main():
     expected = FACES.keys() | {f"{name}-catmark" for name in FACES}
     errors += [f"{name}: missing or not expected" for name in sorted(counts.keys() ^ expected)]
     shown = {f"scenes/{model}" for count in counts.values() for model in count.models}
-    errors += [f"{name}: in no scene" for name in kept if name.startswith("scenes/") and name.endswith(".obj") and name not in shown]
-    print("\n".join(errors) or f"{len(kept)} files are the generator's; faces: {({n: c.faces for n, c in counts.items()})}")
+    models = {name for name in kept if name.startswith("scenes/") and name.endswith(".obj")}
+    errors += [f"{name}: in no scene" for name in sorted(models - shown)]
+    errors += [f"{name}: {fault}" for name in sorted(shown) if (fault := winding_fault(DATA / name))]
+    sizes = ", ".join(f"{name} {count.faces}" for name, count in counts.items())
+    print("\n".join(errors) or f"{len(kept)} files are the generator's; control faces: {sizes}")
     return 1 if errors or not kept else 0
 
 

@@ -18,7 +18,9 @@ EAR = [
     ((0.35, 2.90, 0.28), 0.17, 0.05), ((0.35, 3.08, 0.20), 0.07, 0.03),
 ]
 FORELEG = [((0.22, 0.48, 0.66), 0.13, 0.13), ((0.21, 0.14, 0.70), 0.12, 0.13), ((0.21, 0.0, 0.80), 0.14, 0.26)]
-HIND_LEG = [((0.46, 0.16, -0.16), 0.16, 0.40), ((0.48, 0.0, 0.0), 0.18, 0.56)]
+HIND_LEG = [
+    ((0.56, 0.44, -0.12), 0.22, 0.42), ((0.48, 0.12, -0.24), 0.15, 0.34), ((0.48, 0.0, -0.02), 0.18, 0.58),
+]
 
 
 def half_ring(mesh, y, z, slope, height, width):
@@ -62,6 +64,8 @@ def bunny(scheme):
     downwards = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
     for face, sections in ((faces[4][3], FORELEG), (faces[2][3], HIND_LEG)):
         mesh.crease(limb(mesh, face, sections, downwards), 2, closed=True)
-    mesh.extrude(faces[2][2], (0.10, -0.05, 0.02), 1.25)  # the haunch
+    for i in (2, 3):  # the haunch
+        x, y, z = mesh.points[rings[2][i]]
+        mesh.points[rings[2][i]] = (x + 0.1, y + 0.06, z)
     mesh.mirror()
     return finished(mesh)

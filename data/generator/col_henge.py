@@ -60,7 +60,7 @@ def turned(scheme, profile, comment):
 
 
 def lintel(scheme):
-    """Lies on the columns; its middle is at the angle 0 of the ring, its section walks around counter-clockwise."""
+    """Lies on the columns; its middle is at the angle 0 of the ring, its ends are at plus and minus half a slot."""
     mesh = Mesh(scheme, "A curved lintel with a cornice, closed, all its edges semi-sharp creases.")
     section = [(-0.42, 0), (0.42, 0), (0.42, 0.5), (0.62, 0.58), (0.62, 0.76), (-0.42, 0.76)]
     half = pi / COLUMNS - 0.006
@@ -70,11 +70,10 @@ def lintel(scheme):
             [mesh.point((RADIUS + r) * cos(angle), TOP + y, -(RADIUS + r) * sin(angle)) for r, y in section]
         )
     for a, b in zip(ends, ends[1:]):
-        mesh.band(b, a)
-    first, last = ends[0], ends[-1]
-    for end in (first, last[::-1]):
-        mesh.face(end[0], end[1], end[2], end[5]) if end is first else mesh.face(end[5], end[0], end[3], end[4])
-        mesh.face(end[2], end[3], end[4], end[5]) if end is first else mesh.face(end[0], end[1], end[2], end[3])
+        mesh.band(a, b)
+    for end, side in ((ends[0], -1), (ends[-1], 1)):
+        for corners in ((0, 1, 2, 5), (2, 3, 4, 5)):
+            mesh.face(*[end[c] for c in corners[::side]])
         mesh.crease(end, 5, closed=True)
     for line in range(len(section)):
         mesh.crease([end[line] for end in ends], 5)
@@ -149,8 +148,8 @@ def scene(scheme):
     henge.show("block", "marble", scale=(0.68, 0.125, 0.68), rotate=(0.2, 0.1, 1, 24), translate=(4.9, 0.22, 4.3))
     henge.show("fallen", "marble", rotate=(0.05, 1, 0.08, 110), translate=(5.6, -0.85, 8.6))
     henge.show("block", "marble", scale=(0.45, 0.5, 0.4), rotate=(0.5, 0.4, 0.6, 58), translate=(7.6, -0.55, 7.2))
-    henge.show("ball", "rock", scale=(0.9, 0.55, 0.72), rotate=(0, 1, 0, 30), translate=(-3.4, -0.62, 9.9))
-    henge.show("ball", "rock", scale=(0.45, 0.33, 0.38), rotate=(0, 1, 0, 70), translate=(-2.0, -0.66, 10.9))
+    henge.show("ball", "rock", scale=(0.9, 0.55, 0.72), rotate=(0, 1, 0, 30), translate=(1.3, -0.72, 10.3))
+    henge.show("ball", "rock", scale=(0.45, 0.33, 0.38), rotate=(0, 1, 0, 70), translate=(3.0, -0.72, 10.0))
     henge.camera((7.4, 6.2, 18.6), (0.1, 1.3, 0), 45)
     henge.light((-60, 70, 40), (1.1, 1.0, 0.84))
     henge.background((0.3, 0.42, 0.6))

@@ -15,7 +15,7 @@ BUNNIES = [
     (-3.3, 2.0, 1.0, 105, "brown"), (3.5, 1.3, 0.95, -60, "white"), (-1.5, 4.7, 0.6, 165, "grey"),
     (1.9, 4.9, 0.5, -35, "brown"), (-5.9, -1.6, 1.05, 55, "white"), (6.0, -1.6, 1.0, -35, "grey"),
     (-3.2, -4.4, 1.0, 20, "grey"), (3.0, -4.6, 1.05, -15, "brown"), (0.2, -7.6, 1.1, 0, "white"),
-    (6.3, 3.2, 0.6, -110, "white"), (-5.6, 3.9, 0.55, 40, "brown"), (-8.6, -6.2, 1.0, 35, "brown"),
+    (5.5, 2.9, 0.6, -100, "white"), (-4.9, 3.5, 0.55, 40, "brown"), (-8.6, -6.2, 1.0, 35, "brown"),
 ]
 NESTS = [(-3.2, 6.6, 10), (3.9, 4.7, 100), (8.4, 0.9, 200), (-7.9, 1.4, 300)]  # x, z, heading
 SINGLE_EGGS = 30
@@ -104,7 +104,8 @@ class Scatter:
 
 def show_single_eggs(meadow):
     scatter = Scatter()
-    scatter.taken = [(0, 0, 2.2)] + [(x, z, 1.3 * scale) for x, z, scale, *_ in BUNNIES] + [(x, z, 1.3) for x, z, _ in NESTS]
+    scatter.taken = [(0, 0, 2.2)] + [(x, z, 1.3 * scale) for x, z, scale, *_ in BUNNIES]
+    scatter.taken += [(x, z, 1.3) for x, z, _ in NESTS]
     for i in range(SINGLE_EGGS):
         size = scatter.number(0.5, 0.9)
         x, z = scatter.place(0.75 * size)

@@ -47,9 +47,9 @@ def across(mesh, corners, centre, half):
 def hull(scheme):
     mesh, rings, faces, nose = hull_half()
     mesh.scheme = scheme
-    mesh.comment = "A frog's body as a hull, closed: mouth, sockets, limbs and panels edged by sharp and semi-sharp creases."
+    mesh.comment = "A frog's body as a hull, closed; sharp and semi-sharp creases edge its panels and limbs."
 
-    socket = mesh.extrude(faces[1][1], (0.02, 0.24, 0.04), 0.92)
+    socket = mesh.extrude(faces[1][1], (0.03, 0.26, 0.04), 1.12)
     mesh.crease(socket, 4, closed=True)
 
     # Forelegs: fins that sweep forward and down, with webbed toes.
@@ -104,11 +104,11 @@ def scene(scheme):
     frogship.material("steel", (0.35, 0.36, 0.4), 0.4)
     parts = [instance("hull", "skin")]
     for side in (1, -1):
-        parts.append(instance("eye", "glass", scale=0.308, translate=(0.82 * side, 0.56, 1.03)))
+        parts.append(instance("eye", "glass", scale=0.32, translate=(0.87 * side, 0.59, 1.03)))
         parts.append(instance("nozzle", "steel", translate=(FOOT[0] * side, *FOOT[1:])))
     frogship.group("ship", *parts)
     frogship.show("ship", rotate=(0, 0, 1, -9))
-    frogship.camera((3.0, 2.8, 6.2), (0.12, 0, 0), 38)
+    frogship.camera((3.4, 2.1, 6.2), (0.12, 0.05, 0), 37)
     frogship.light((20, 40, 30), (1, 0.97, 0.9))
     frogship.background((0.03, 0.04, 0.09))
     return frogship

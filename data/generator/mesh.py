@@ -38,12 +38,15 @@ class Mesh:
             self.face(ring[i], ring[i + 1], ring[(i + 2) % count], centre)
 
     def extrude(self, face, offset, scale=1.0):
-        """Pulls a face out by `offset`, scaled about its own centre; returns its new corners. It keeps its index."""
+        """Pulls a face out by `offset`, scaled about its own centre, along each axis if `scale` is a triple;
+        returns its new corners. It keeps its index.
+        """
         scales = scale if isinstance(scale, tuple) else (scale,) * 3
         old = self.faces[face]
         centre = [sum(self.points[v][axis] for v in old) / len(old) for axis in range(3)]
         new = [
-            self.point(*(c + o + s * (p - c) for c, o, s, p in zip(centre, offset, scales, self.points[v]))) for v in old
+            self.point(*(c + o + s * (p - c) for c, o, s, p in zip(centre, offset, scales, self.points[v])))
+            for v in old
         ]
         self.faces[face] = new
         for i in range(len(old)):

@@ -1,13 +1,13 @@
 """Shapes that several scenes share."""
 from math import sqrt
 
+from .basic import CUBE_FACES, CUBE_POINTS
 from .mesh import Mesh, circle
 
-CUBE = [(-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1), (-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]
-CUBE_FACES = [(0, 1, 2, 3), (5, 4, 7, 6), (3, 2, 6, 7), (1, 0, 4, 5), (1, 5, 6, 2), (4, 0, 3, 7)]
 ICOSAHEDRON_FACES = [
-    (0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8),
-    (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1),
+    (0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6),
+    (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7),
+    (9, 8, 1),
 ]
 
 
@@ -22,7 +22,7 @@ def ball(scheme, comment):
         ]
         size, faces = 0.75, ICOSAHEDRON_FACES
     else:
-        points, size, faces = CUBE, 1.173, CUBE_FACES
+        points, size, faces = CUBE_POINTS, 1.173, CUBE_FACES
     for p in points:
         mesh.point(*(size * x for x in p))
     for f in faces:
@@ -33,7 +33,7 @@ def ball(scheme, comment):
 def block(scheme, comment, sharpness):
     """A cube from -1 to 1 whose edges are rounded a little."""
     mesh = Mesh(scheme, comment)
-    for p in CUBE:
+    for p in CUBE_POINTS:
         mesh.point(*p)
     for f in CUBE_FACES:
         mesh.face(*f)
