@@ -10,7 +10,7 @@ class Mesh:
         self.comment = comment
         self.points = []
         self.faces = []  # lists of point indices, counted from 0, counter-clockwise seen from outside
-        self.tags = []
+        self.tags = []  # texts, or (a, b, sharpness) for a crease
 
     def point(self, x, y, z):
         self.points.append((x, y, z))
@@ -38,17 +38,38 @@ class Mesh:
             self.face(ring[i], ring[i + 1], ring[(i + 2) % count], centre)
 
     def extrude(self, face, offset, scale=1.0):
-        """Pulls a face out by `offset`, scaled about its own centre; returns its new corners. It keeps its index."""
+        """Pulls a face out by `offset`, scaled about its own centre, along each axis if `scale` is a triple;
+        returns its new corners. It keeps its index.
+        """
+        scales = scale if isinstance(scale, tuple) else (scale,) * 3
         old = self.faces[face]
         centre = [sum(self.points[v][axis] for v in old) / len(old) for axis in range(3)]
         new = [
-            self.point(*(c + o + scale * (p - c) for c, o, p in zip(centre, offset, self.points[v]))) for v in old
+            self.point(*(c + o + s * (p - c) for c, o, s, p in zip(centre, offset, scales, self.points[v])))
+            for v in old
         ]
         self.faces[face] = new
         for i in range(len(old)):
             j = (i + 1) % len(old)
             self.face(old[i], old[j], new[j], new[i])
         return new
+
+    def fan(self, face, offset):
+        """Replaces a face by triangles around its centre, moved by `offset`; returns the centre."""
+        old = self.faces[face]
+        centre = [sum(self.points[v][axis] for v in old) / len(old) for axis in range(3)]
+        tip = self.point(*(c + o for c, o in zip(centre, offset)))
+        self.faces[face] = [old[0], old[1], tip]
+        for i in range(1, len(old)):
+            self.face(old[i], old[(i + 1) % len(old)], tip)
+        return tip
+
+    def mirror(self):
+        """Adds the mirror image in the plane x = 0, which keeps its own points, of the mesh and its creases."""
+        image = [v if abs(p[0]) < 1e-9 else self.point(-p[0], *p[1:]) for v, p in enumerate(self.points[:])]
+        self.faces += [[image[v] for v in reversed(f)] for f in self.faces]
+        creases = [(image[a], image[b], sharpness) for a, b, sharpness in self.tags]
+        self.tags += [c for c, old in zip(creases, self.tags) if c != old]
 
     def triangulate(self):
         """Splits every quad along its shorter diagonal."""
@@ -71,7 +92,7 @@ class Mesh:
         """Tags the edges along a path of points."""
         ends = path[1:] + path[:1] if closed else path[1:]
         for a, b in zip(path, ends):
-            self.tags.append(f"crease 2/1/0 {a} {b} {sharpness}")
+            self.tags.append((a, b, sharpness))
 
     def corner(self, vertex, sharpness):
         self.tags.append(f"corner 1/1/0 {vertex} {sharpness}")
@@ -84,7 +105,7 @@ class Mesh:
         lines += ["v " + " ".join(number(x) for x in p) for p in self.points]
         lines += ["f " + " ".join(str(v + 1) for v in f) for f in self.faces]
         lines += [f"t scheme 0/0/1 {self.scheme}"]
-        lines += [f"t {tag}" for tag in self.tags]
+        lines += [f"t {tag}" if isinstance(tag, str) else "t crease 2/1/0 {} {} {}".format(*tag) for tag in self.tags]
         return "\n".join(lines) + "\n"
 
 
