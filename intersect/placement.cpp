@@ -13,8 +13,13 @@ Placement::Placement(const Affine& to_world)
 
 std::optional<Ray> Placement::to_object(const Ray& ray) const {
   if (identity_) return ray;
-  const Ray local{to_object_ * (ray.origin - to_world_.translation()), to_object_ * ray.direction, ray.tmin, ray.tmax};
+  Ray local{to_object_ * (ray.origin - to_world_.translation()), to_object_ * ray.direction, ray.tmin, ray.tmax,
+            ray.footprint};
   if (!local.origin.allFinite() || !local.direction.allFinite() || local.direction.isZero(0)) return {};
+  // Lengths shrink as they do along the ray: a map that is uneven across it is not told apart.
+  const double scale = local.direction.stableNorm() / ray.direction.stableNorm();
+  local.footprint.width *= scale;
+  local.footprint.unit *= scale;
   return local;
 }
 

@@ -1,11 +1,20 @@
 #pragma once
 /// Rays and what they meet.
-#include <cstdint>
 #include <limits>
 
 #include "../schemes/limit_sample.h"
 
 namespace shaolin {
+
+/// How wide the pixel is that a ray stands for: an isotropic ray differential (a cone about the ray; Igehy 1999 keeps
+/// both directions apart). Chord and a3 measure patches by it; other methods read nothing of it.
+struct Footprint {
+  double width = 0;   ///< at the origin, a length of the ray's space; this and growth 0: not known
+  double growth = 0;  ///< of the width along the ray, per unit of length
+  double unit = 1;    ///< the length, in the ray's space, of one unit of the scene's: not 1 only inside instances
+
+  double at(double distance) const { return width + growth * distance; }
+};
 
 /// Points origin + t direction with tmin <= t <= tmax. The direction need not be unit: t is in units of its length.
 struct Ray {
@@ -13,6 +22,7 @@ struct Ray {
   Vec3 direction = Vec3::UnitX();
   double tmin = 0;
   double tmax = std::numeric_limits<double>::infinity();
+  Footprint footprint = {};
 };
 
 /// The closest point of the limit surface on a ray.
@@ -22,19 +32,6 @@ struct Hit {
   LimitSample sample;   ///< the limit position (it lies on the ray to rounding), the unit normal, derivatives
   int level = 0;        ///< the refinement level of the patch that was met: its parameter square has side 2^-level
   int instance = 0;     ///< the index of the instance in its scene
-};
-
-/// Work done since the scene was committed; the sums over all threads.
-struct Statistics {
-  std::uint64_t rays = 0;
-  std::uint64_t hits = 0;
-  std::uint64_t faces = 0;          ///< faces with a limit surface (n-gons count once per corner)
-  std::uint64_t faces_touched = 0;  ///< of these, the ones that any ray made refine
-  std::uint64_t patches_split = 0;  ///< patches whose four children were made
-  std::uint64_t hull_tests = 0;     ///< RP/CP tests of a patch's control points
-  std::uint64_t cells = 0;          ///< parameter cells that the finish looked at
-  std::uint64_t newton_steps = 0;
-  std::uint64_t bytes = 0;  ///< memory held by patches and their tables
 };
 
 }  // namespace shaolin

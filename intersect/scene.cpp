@@ -35,7 +35,7 @@ class Scene::Implementation {
     RayCounters counters;
     const Answer answer = (this->*query)(ray, counters);
     Statistics& local = own_counters();
-    counters.add_to(local);
+    local += counters;
     ++local.rays;
     local.hits += static_cast<bool>(answer);
     return answer;
@@ -175,11 +175,9 @@ bool Scene::Implementation::occluded_by_instances(const Ray& ray, RayCounters& c
 Statistics Scene::Implementation::statistics() const {
   Statistics total;
   for (const Statistics& local : counters_) {
+    total += local;
     total.rays += local.rays;
     total.hits += local.hits;
-    total.hull_tests += local.hull_tests;
-    total.cells += local.cells;
-    total.newton_steps += local.newton_steps;
   }
   for (const Object* object : objects_) object->add_to(total);
   total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);

@@ -10,7 +10,7 @@ namespace shaolin {
 
 namespace {
 
-SceneOptions uniform(int level) { return {Method::uniform, level}; }
+SceneOptions uniform(int level) { return {Method::uniform, level, {}}; }
 
 std::vector<Model> models() {
   ControlMesh creased = with_edges(shaken(torus("catmark", 4, 6), 0.1), {{0, 1, 2.5f}, {1, 2, 10}, {2, 3, 0.5f}});

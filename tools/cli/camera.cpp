@@ -128,6 +128,7 @@ Ray View::ray(int x, int y) const {
   Ray ray;
   ray.origin = camera_.eye;
   ray.direction = direction.normalized();
+  ray.footprint.growth = 2 * half_height_ / size_.height;
   return ray;
 }
 

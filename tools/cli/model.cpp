@@ -51,7 +51,8 @@ void add_method_option(CLI::App& app, SceneOptions& options) {
   app.add_option_function<int>(
          "--uniform",
          [&options](int level) {
-           options = {Method::uniform, level};
+           options.method = Method::uniform;
+           options.level = level;
          },
          "For comparison: rays meet triangles in place of the limit surface, of a tessellation at this level")
       ->check(CLI::Range(1, 10))
