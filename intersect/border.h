@@ -2,9 +2,17 @@
 /// Hulls of border curves: Mueller et al. 2003, section 4.
 #include <vector>
 
+#include "../schemes/corner_limit.h"
 #include "limit_bounds.h"
 
 namespace shaolin {
+
+/// Which hulls of border curves a tree keeps.
+struct BorderHulls {
+  enum class Kind { none, bounds, stand_ins };  ///< stand-ins are those of add_stand_in(), where it has any
+  Kind kind = Kind::none;
+  double resolution = 0;  ///< of bounds beside irregular vertices, a length
+};
 
 namespace detail {
 
@@ -27,14 +35,17 @@ inline void add_side(const BezierQuad& piece, int edge, std::vector<Vec3>& point
 }  // namespace detail
 
 /// Adds points whose hull holds the limit curve along a patch's edge from corner `edge` to the next. Of a polynomial
-/// patch they are the edge's Bezier points (quartic for Loop, as in the paper; cubic for Catmull-Clark). Beside
-/// irregular vertices and while sharpness decays the patch is split towards the edge, `splits` times at most: all but a
-/// piece at the irregular end is polynomial then, and the bound of its whole limit serves for that piece, 2^-splits as
-/// wide as the edge. O(2^splits) at worst; O(splits) where one end is irregular.
+/// patch they are the edge's Bezier points (quartic for Loop, as in the paper; cubic for Catmull-Clark). Beside an
+/// irregular vertex the patch is split towards it; all but the last piece are polynomial then, and the bound of its
+/// whole limit serves for that one, once its edge is shorter than `resolution` (a length). Where both halves stay
+/// irregular (while sharpness decays, and for schemes without polynomials) `splits` of them are the end of it.
+/// O(2^splits + log(edge / resolution)).
 template <Scheme S>
-void add_border_bound(const Patch<S>& patch, int edge, int splits, std::vector<Vec3>& points) {
+void add_border_bound(const Patch<S>& patch, int edge, double resolution, int splits, std::vector<Vec3>& points) {
   if (patch.is_regular()) return detail::add_side(patch.regular(), edge, points);
-  if (splits == 0) {
+  const int next = (edge + 1) % static_cast<int>(Domain<S::face_kind>::corner_count);
+  const Vec3& from = patch.points[static_cast<std::size_t>(edge)];
+  if (splits == 0 || (patch.points[static_cast<std::size_t>(next)] - from).norm() <= resolution) {
     if (patch.configuration->hull_expansion() == 0) {
       points.insert(points.end(), patch.points.begin(), patch.points.end());
       return;
@@ -45,8 +56,10 @@ void add_border_bound(const Patch<S>& patch, int edge, int splits, std::vector<V
         for (const double z : {box.lower.z(), box.upper.z()}) points.emplace_back(x, y, z);
     return;
   }
-  for (const int k : {edge, (edge + 1) % static_cast<int>(Domain<S::face_kind>::corner_count)})
-    add_border_bound(patch.child(k), edge, splits - 1, points);
+  const Patch<S> first = patch.child(edge), second = patch.child(next);
+  const bool both = !first.is_regular() && !second.is_regular();
+  add_border_bound(first, edge, resolution, splits - both, points);
+  add_border_bound(second, edge, resolution, splits - both, points);
 }
 
 namespace detail {

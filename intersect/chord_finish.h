@@ -55,9 +55,13 @@ class ChordFinish {
  private:
   class Search;
 
-  typename Node::BorderHulls hulls() const {
-    using Hulls = typename Node::BorderHulls;
-    return !options_.border_areas ? Hulls::none : options_.stand_in_borders ? Hulls::stand_ins : Hulls::bounds;
+  /// Bounds are a fraction of the tolerance wide, in the object's own lengths.
+  BorderHulls hulls() const {
+    using Kind = BorderHulls::Kind;
+    return {!options_.border_areas      ? Kind::none
+            : options_.stand_in_borders ? Kind::stand_ins
+                                        : Kind::bounds,
+            options_.epsilon / 16};
   }
 
   ChordOptions options_;
@@ -94,7 +98,7 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
 
  public:
   Search(const Part& part, const Box& bounds, const Approach& approach, const ChordOptions& options,
-         typename Node::BorderHulls hulls, TreeTotals& totals)
+         const BorderHulls& hulls, TreeTotals& totals)
       : Base(part.normal, bounds, approach, options, hulls, totals), is_valid_(part.is_valid) {
     // The shadow's direction: across the normal of TP, within RP, along the ray.
     const Vec3 normal = frame_.turn(part.normal);
@@ -302,7 +306,7 @@ void ChordFinish<S>::Search::meet_gap(const Node& finer, std::size_t edge, int l
 }
 
 /// Section 7.3: the ray meets the border area if it passes through the hull of the border curve, seen along the ray.
-/// The paper does not say where; here, at the nearest point of the chord.
+/// The paper does not say where; here, as far along the ray as the nearest point of the chord.
 template <Scheme S>
 void ChordFinish<S>::Search::meet_border(const Node& node, std::size_t edge) {
   OriginInHull hull(error_);
@@ -319,7 +323,8 @@ void ChordFinish<S>::Search::meet_border(const Node& node, std::size_t edge) {
   const double distance = from.z() + share * chord.z();
   if (!(distance >= approach_.ray.near && distance <= approach_.far())) return;
   ++approach_.counters.border_areas_hit;
-  ChordHit hit{distance, a.position + share * (b.position - a.position), (1 - share) * a.normal + share * b.normal,
+  ChordHit hit{distance, approach_.ray.origin + distance * approach_.ray.direction,
+               (1 - share) * a.normal + share * b.normal,
                (1 - share) * node.corner_parameter(edge) + share * node.corner_parameter(next), node.level()};
   if (hit.normal.isZero(0)) hit.normal = node.normal();
   this->take(hit);

@@ -46,7 +46,7 @@ class ChordSearch {
   static constexpr std::size_t sides = Node::sides;
 
   ChordSearch(const Vec3& plane_normal, const Box& bounds, const Approach& approach, const ChordOptions& options,
-              typename Node::BorderHulls hulls, TreeTotals& totals)
+              const BorderHulls& hulls, TreeTotals& totals)
       : approach_(approach),
         frame_(approach.ray, plane_normal),
         triangle_ray_(approach.ray),
@@ -124,7 +124,7 @@ class ChordSearch {
   TriangleRay triangle_ray_;
   double error_;  ///< of coordinates in the frame
   const ChordOptions& options_;
-  typename Node::BorderHulls hulls_;
+  BorderHulls hulls_;
   TreeTotals& totals_;
 
  private:

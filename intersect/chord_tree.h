@@ -36,15 +36,12 @@ class ChordNode {
   };
   using Borders = std::array<Border, sides>;
 
-  /// What a tree needs to know of its finish: whether to keep border hulls, and which.
-  enum class BorderHulls { none, bounds, stand_ins };
-
   ChordNode() = default;
   ~ChordNode() { delete children_.load(); }
 
   /// Makes it the root of a start patch, `level` splits below the control face; parameters are those of the face's (or
   /// of the n-gon's corner's) patch: origin + scale * own.
-  void make_root(Patch<S> patch, int level, const Parameter& origin, double scale, BorderHulls hulls) {
+  void make_root(Patch<S> patch, int level, const Parameter& origin, double scale, const BorderHulls& hulls) {
     patch_ = std::move(patch);
     level_ = root_level_ = level;
     origin_ = origin;
@@ -73,7 +70,7 @@ class ChordNode {
 
   const Children* known_children() const { return children_.load(std::memory_order_acquire); }
   /// Made now if nobody asked before. Thread-safe. O(points).
-  const Children& children(BorderHulls hulls, TreeTotals& totals) const;
+  const Children& children(const BorderHulls& hulls, TreeTotals& totals) const;
 
   struct Neighbour {
     const ChordNode* node = nullptr;
@@ -111,16 +108,16 @@ class ChordNode {
     return (way - share * chord).norm();
   }
 
-  void make_borders(BorderHulls hulls) {
-    constexpr int splits = 5;  // the bound beside an irregular end is a thirty-second of the edge wide
-    if (!is_outer() || hulls == BorderHulls::none) return;
+  void make_borders(const BorderHulls& hulls) {
+    constexpr int splits = 5;  // where nothing becomes polynomial: to a thirty-second of the edge
+    if (!is_outer() || hulls.kind == BorderHulls::Kind::none) return;
     borders_ = std::make_unique<Borders>();
     for (std::size_t edge = 0; edge < sides; ++edge) {
       if (!is_outer(edge)) continue;
       auto& [points, reach] = (*borders_)[edge];
       const int number = static_cast<int>(edge);
-      if (hulls != BorderHulls::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
-        add_border_bound(patch_, number, splits, points);
+      if (hulls.kind != BorderHulls::Kind::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
+        add_border_bound(patch_, number, hulls.resolution, splits, points);
       points.shrink_to_fit();
       for (const Vec3& point : points)
         reach = std::max(reach,
@@ -141,7 +138,7 @@ class ChordNode {
     if (!normal_.allFinite()) normal_.setZero();
   }
 
-  std::unique_ptr<Children> split(BorderHulls hulls) const;
+  std::unique_ptr<Children> split(const BorderHulls& hulls) const;
 
   Patch<S> patch_;
   Corners corners_;
@@ -167,7 +164,7 @@ struct ChordNode<S>::Children {
 };
 
 template <Scheme S>
-auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> const Children& {
+auto ChordNode<S>::children(const BorderHulls& hulls, TreeTotals& totals) const -> const Children& {
   if (const Children* known = known_children()) return *known;
   std::unique_ptr<Children> made = split(hulls);
   Children* expected = nullptr;
@@ -181,7 +178,7 @@ auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> cons
 
 /// Edge e of the parent is edge e of child e and of child e + 1 in both splits; corner e + 1 of child e is its middle.
 template <Scheme S>
-auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
+auto ChordNode<S>::split(const BorderHulls& hulls) const -> std::unique_ptr<Children> {
   auto made = std::make_unique<Children>();
   for (std::size_t k = 0; k < 4; ++k) {
     ChordNode& child = made->nodes[k];
