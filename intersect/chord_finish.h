@@ -94,6 +94,7 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
   using Base::error_;
   using Base::frame_;
   using Base::options_;
+  using Base::totals_;
   static constexpr std::size_t sides = Node::sides;
 
  public:
@@ -300,7 +301,7 @@ void ChordFinish<S>::Search::meet_gap(const Node& finer, std::size_t edge, int l
   if (this->meet({this->point(finer, edge), this->point(first, next), this->point(finer, next)}, level))
     ++approach_.counters.gap_polygons_hit;
   const Vec3 from = frame_.project(finer.corner(edge).position), to = frame_.project(finer.corner(next).position);
-  const Vec3 middle = frame_.project(children.middles[edge].position);
+  const Vec3 middle = frame_.project(finer.middles(totals_).edges[edge].position);
   if (crossing(from, middle)) meet_gap(first, edge, level);
   if (crossing(middle, to)) meet_gap(second, edge, level);
 }

@@ -75,10 +75,10 @@ class ChordSearch {
       return false;
     }
     if (node.splits() >= most_splits) return is_too_deep();
-    const typename Node::Children& children = this->children(node);
+    const typename Node::Middles& middles = node.middles(totals_);
     const double deviation =
-        options_.end_normals ? std::max(children.deviation, children.end_deviation) : children.deviation;
-    const double silhouette = std::abs(node.normal().dot(approach_.ray.direction));
+        options_.end_normals ? std::max(middles.deviation, middles.end_deviation) : middles.deviation;
+    const double silhouette = std::abs(middles.normal.dot(approach_.ray.direction));
     return !(deviation <= epsilon * silhouette);
   }
 
@@ -135,12 +135,7 @@ class ChordSearch {
 
   /// The length of the longest chord, seen along the ray.
   double projected_size(const Node& node) const {
-    double square = 0;
-    for (std::size_t k = 0; k < sides; ++k) {
-      const Vec3 chord = node.corner((k + 1) % sides).position - node.corner(k).position;
-      square = std::max(square, chord.cross(approach_.ray.direction).squaredNorm());
-    }
-    return std::sqrt(square);
+    return node.longest_chord([&](const Vec3& chord) -> Vec3 { return chord.cross(approach_.ray.direction); });
   }
 
   /// Of the chord face's centre along the ray.

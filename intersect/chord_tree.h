@@ -2,6 +2,7 @@
 /// The subpatches of a start patch with the limit points that their chord faces are spanned by.
 #include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,14 +22,15 @@ struct ChordCorner {
 /// A subpatch: its control points N(F), its corners' limit points, and hulls of those of its border curves that lie on
 /// the start patch's border. The corners of children are the parent's corners and the limit points of its edges'
 /// middles, bit for bit; across the border of start patches they agree bit for bit where limit masks are closed (they
-/// sum symmetrically), to rounding where they are derived. Children are made when first asked for, and kept.
+/// sum symmetrically), to rounding where they are derived. Middles are made when the criteria first ask for them, and
+/// kept; children only where refinement goes on, so that leaves, which are most of the subpatches, have none.
 template <Scheme S>
 class ChordNode {
  public:
   using D = Domain<S::face_kind>;
   static constexpr std::size_t sides = D::corner_count;
+  struct Middles;
   struct Children;
-  using Corners = std::array<ChordCorner, sides>;
   /// Of an outer edge.
   struct Border {
     std::vector<Vec3> hull;  ///< points whose hull holds the border curve
@@ -37,7 +39,10 @@ class ChordNode {
   using Borders = std::array<Border, sides>;
 
   ChordNode() = default;
-  ~ChordNode() { delete children_.load(); }
+  ~ChordNode() {
+    delete children_.load();
+    delete middles_.load();
+  }
 
   /// Makes it the root of a start patch, `level` splits below the control face; parameters are those of the face's (or
   /// of the n-gon's corner's) patch: origin + scale * own.
@@ -46,30 +51,39 @@ class ChordNode {
     level_ = root_level_ = level;
     origin_ = origin;
     scale_ = scale;
-    for (std::size_t k = 0; k < sides; ++k) corners_[k] = limit_corner(patch_, static_cast<int>(k));
+    own_corners_ = std::make_unique<std::array<ChordCorner, sides>>();
+    for (std::size_t k = 0; k < sides; ++k) {
+      (*own_corners_)[k] = limit_corner(patch_, static_cast<int>(k));
+      corners_[k] = &(*own_corners_)[k];
+    }
     outer_ = (1u << sides) - 1;
     make_borders(hulls);
-    describe();
   }
 
   const Patch<S>& patch() const { return patch_; }
-  const ChordCorner& corner(std::size_t k) const { return corners_[k]; }
+  const ChordCorner& corner(std::size_t k) const { return *corners_[k]; }
   int level() const { return level_; }
   int splits() const { return level_ - root_level_; }
   bool is_outer(std::size_t edge) const { return (outer_ >> edge & 1u) != 0; }
   bool is_outer() const { return outer_ != 0; }
   /// Of an outer edge; edge k joins corner k to the next.
   const Border& border(std::size_t edge) const { return (*borders_)[edge]; }
-  /// The unit normal of the chord face; zero if it has none.
-  const Vec3& normal() const { return normal_; }
-  /// The length of the longest chord.
-  double longest_chord() const { return longest_chord_; }
+  /// The unit normal of the chord face (of section 8.2 for quads); zero if it has none.
+  Vec3 normal() const;
+  /// The length of the longest chord, as it is or as a map of vectors makes it.
+  template <class Map = std::identity>
+  double longest_chord(Map map = {}) const {
+    double square = 0;
+    for (std::size_t k = 0; k < sides; ++k)
+      square = std::max(square, map(Vec3(corner((k + 1) % sides).position - corner(k).position)).squaredNorm());
+    return std::sqrt(square);
+  }
 
   Parameter to_face(const Parameter& at) const { return origin_ + scale_ * at; }
   Parameter corner_parameter(std::size_t k) const { return to_face({D::corners[k][0], D::corners[k][1]}); }
 
-  const Children* known_children() const { return children_.load(std::memory_order_acquire); }
-  /// Made now if nobody asked before. Thread-safe. O(points).
+  /// Both are made now if nobody asked before. Thread-safe. O(points).
+  const Middles& middles(TreeTotals& totals) const;
   const Children& children(const BorderHulls& hulls, TreeTotals& totals) const;
 
   struct Neighbour {
@@ -82,7 +96,7 @@ class ChordNode {
   Neighbour neighbour(std::size_t edge, const ChildrenOf& children_of) const;
 
   std::uint64_t own_bytes() const {
-    std::uint64_t bytes = patch_.points.capacity() * sizeof(Vec3);
+    std::uint64_t bytes = patch_.points.capacity() * sizeof(Vec3) + (own_corners_ ? sizeof(*own_corners_) : 0);
     if (borders_) {
       bytes += sizeof(Borders);
       for (const auto& border : *borders_) bytes += border.hull.capacity() * sizeof(Vec3);
@@ -120,30 +134,28 @@ class ChordNode {
         add_border_bound(patch_, number, hulls.resolution, splits, points);
       points.shrink_to_fit();
       for (const Vec3& point : points)
-        reach = std::max(reach,
-                         distance_from_segment(point, corners_[edge].position, corners_[(edge + 1) % sides].position));
+        reach =
+            std::max(reach, distance_from_segment(point, corner(edge).position, corner((edge + 1) % sides).position));
     }
   }
 
-  /// The normal of section 8.2 for quads.
-  void describe() {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < sides; ++k) {
-      const Vec3& a = corners_[(k + sides - 1) % sides].position;
-      const Vec3 &b = corners_[k].position, &c = corners_[(k + 1) % sides].position;
-      sum += (b - a).cross(c - b);
-      longest_chord_ = std::max(longest_chord_, (c - b).norm());
-    }
-    normal_ = sum.stableNormalized();
-    if (!normal_.allFinite()) normal_.setZero();
+  /// What `slot` holds, made now if nobody made it before.
+  template <class Value, class Make, class Made>
+  static const Value& once(std::atomic<Value*>& slot, Make make, Made made_first) {
+    if (const Value* known = slot.load(std::memory_order_acquire)) return *known;
+    std::unique_ptr<Value> made = make();
+    Value* expected = nullptr;
+    if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
+    made_first(*made);
+    return *made.release();
   }
 
-  std::unique_ptr<Children> split(const BorderHulls& hulls) const;
+  std::unique_ptr<Middles> find_middles() const;
+  std::unique_ptr<Children> split(const BorderHulls& hulls, const Middles& middles) const;
 
   Patch<S> patch_;
-  Corners corners_;
-  Vec3 normal_ = Vec3::Zero();
-  double longest_chord_ = 0;
+  std::array<const ChordCorner*, sides> corners_{};              ///< of the root, or middles of ancestors
+  std::unique_ptr<std::array<ChordCorner, sides>> own_corners_;  ///< the root's
   std::unique_ptr<Borders> borders_;
   Parameter origin_ = Parameter::Zero();
   double scale_ = 1;
@@ -151,83 +163,110 @@ class ChordNode {
   unsigned outer_ = 0;
   int number_ = 0;  ///< among its siblings
   const ChordNode* parent_ = nullptr;
+  mutable std::atomic<Middles*> middles_{nullptr};
   mutable std::atomic<Children*> children_{nullptr};
 };
 
-/// The four subpatches of a split, and how far the surface is seen to leave the parent's chord face.
+/// The limit points that a split adds, and how far the surface is seen to leave the chord face.
+template <Scheme S>
+struct ChordNode<S>::Middles {
+  std::array<ChordCorner, sides> edges;
+  std::array<ChordCorner, sides - 3> centre;  ///< of a quad
+  Vec3 normal;                                ///< of the chord face
+  double deviation = 0;                       ///< cv of section 7.1
+  double end_deviation = 0;                   ///< what the normals at the ends of edges say of it
+};
+
+/// The four subpatches of a split.
 template <Scheme S>
 struct ChordNode<S>::Children {
   std::array<ChordNode, 4> nodes;
-  std::array<ChordCorner, sides> middles;  ///< of the parent's edges
-  double deviation = 0;                    ///< cv of section 7.1
-  double end_deviation = 0;                ///< what the normals at the ends of edges say of it
 };
 
 template <Scheme S>
-auto ChordNode<S>::children(const BorderHulls& hulls, TreeTotals& totals) const -> const Children& {
-  if (const Children* known = known_children()) return *known;
-  std::unique_ptr<Children> made = split(hulls);
-  Children* expected = nullptr;
-  if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-  std::uint64_t bytes = sizeof(Children);
-  for (const ChordNode& child : made->nodes) bytes += child.own_bytes();
-  totals.bytes += bytes;
-  ++totals.patches_split;
-  return *made.release();
+Vec3 ChordNode<S>::normal() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < sides; ++k) {
+    const Vec3 &a = corner((k + sides - 1) % sides).position, &b = corner(k).position;
+    sum += (b - a).cross(corner((k + 1) % sides).position - b);
+  }
+  const Vec3 normal = sum.stableNormalized();
+  return normal.allFinite() ? normal : Vec3(Vec3::Zero());
 }
 
-/// Edge e of the parent is edge e of child e and of child e + 1 in both splits; corner e + 1 of child e is its middle.
 template <Scheme S>
-auto ChordNode<S>::split(const BorderHulls& hulls) const -> std::unique_ptr<Children> {
+auto ChordNode<S>::middles(TreeTotals& totals) const -> const Middles& {
+  return once(
+      middles_, [&] { return find_middles(); }, [&](const Middles&) { totals.bytes += sizeof(Middles); });
+}
+
+template <Scheme S>
+auto ChordNode<S>::children(const BorderHulls& hulls, TreeTotals& totals) const -> const Children& {
+  return once(
+      children_, [&] { return split(hulls, middles(totals)); },
+      [&](const Children& made) {
+        std::uint64_t bytes = sizeof(Children);
+        for (const ChordNode& child : made.nodes) bytes += child.own_bytes();
+        totals.bytes += bytes;
+        ++totals.patches_split;
+      });
+}
+
+/// Corner e + 1 of child e is the middle of edge e in both splits.
+template <Scheme S>
+auto ChordNode<S>::find_middles() const -> std::unique_ptr<Middles> {
+  auto made = std::make_unique<Middles>();
+  for (std::size_t e = 0; e < sides; ++e) {
+    const Patch<S> child = patch_.child(static_cast<int>(e));
+    for (const Vec3& point : child.points)
+      if (!point.allFinite())
+        throw InputError(
+            "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
+            "not converge; see 'shaolin scheme check'");
+    made->edges[e] = limit_corner(child, static_cast<int>((e + 1) % sides));
+    if constexpr (sides == 4)
+      if (e == 0) made->centre[0] = limit_corner(child, 2);
+  }
+  made->normal = normal();
+  for (std::size_t e = 0; e < sides; ++e) {
+    const ChordCorner &a = corner(e), &b = corner((e + 1) % sides);
+    made->deviation = std::max(made->deviation, distance_from_segment(made->edges[e].position, a.position, b.position));
+    // A parabola leaves its chord by a quarter of (chord . end normal).
+    for (const Vec3& normal : {a.normal, b.normal})
+      made->end_deviation = std::max(made->end_deviation, 0.25 * std::abs(normal.dot(b.position - a.position)));
+  }
+  if constexpr (sides == 4)  // from the diagonal along which the quad is cut
+    made->deviation = std::max(made->deviation,
+                               distance_from_segment(made->centre[0].position, corner(0).position, corner(2).position));
+  return made;
+}
+
+/// Edge e of the parent is edge e of child e and of child e + 1 in both splits.
+template <Scheme S>
+auto ChordNode<S>::split(const BorderHulls& hulls, const Middles& middles) const -> std::unique_ptr<Children> {
   auto made = std::make_unique<Children>();
   for (std::size_t k = 0; k < 4; ++k) {
     ChordNode& child = made->nodes[k];
     const int number = static_cast<int>(k);
     child.patch_ = patch_.child(number);
-    for (const Vec3& point : child.patch_.points)
-      if (!point.allFinite())
-        throw InputError(
-            "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
-            "not converge; see 'shaolin scheme check'");
     child.origin_ = to_face(D::to_parent(number, Parameter::Zero()));
     child.scale_ = scale_ * D::scale(number);
     child.level_ = level_ + 1;
     child.root_level_ = root_level_;
     child.number_ = number;
     child.parent_ = this;
-  }
-  for (std::size_t e = 0; e < sides; ++e)
-    made->middles[e] = limit_corner(made->nodes[e].patch_, static_cast<int>((e + 1) % sides));
-  ChordCorner centre;
-  if constexpr (sides == 4) centre = limit_corner(made->nodes[0].patch_, 2);
-
-  for (std::size_t k = 0; k < 4; ++k) {
-    ChordNode& child = made->nodes[k];
     if (k == sides) {  // the middle triangle
-      for (std::size_t i = 0; i < sides; ++i) child.corners_[i] = made->middles[(i + 1) % sides];
-    } else {
-      const std::size_t before = (k + sides - 1) % sides;
-      child.corners_[k] = corners_[k];
-      child.corners_[(k + 1) % sides] = made->middles[k];
-      if (sides == 4) child.corners_[(k + 2) % sides] = centre;
-      child.corners_[before] = made->middles[before];
-      child.outer_ = outer_ & (1u << k | 1u << before);
+      for (std::size_t i = 0; i < sides; ++i) child.corners_[i] = &middles.edges[(i + 1) % sides];
+      continue;
     }
+    const std::size_t before = (k + sides - 1) % sides;
+    child.corners_[k] = corners_[k];
+    child.corners_[(k + 1) % sides] = &middles.edges[k];
+    if constexpr (sides == 4) child.corners_[(k + 2) % sides] = &middles.centre[0];
+    child.corners_[before] = &middles.edges[before];
+    child.outer_ = outer_ & (1u << k | 1u << before);
     child.make_borders(hulls);
-    child.describe();
   }
-
-  for (std::size_t e = 0; e < sides; ++e) {
-    const ChordCorner &a = corners_[e], &b = corners_[(e + 1) % sides];
-    made->deviation =
-        std::max(made->deviation, distance_from_segment(made->middles[e].position, a.position, b.position));
-    // A parabola leaves its chord by a quarter of (chord . end normal).
-    for (const Vec3& normal : {a.normal, b.normal})
-      made->end_deviation = std::max(made->end_deviation, 0.25 * std::abs(normal.dot(b.position - a.position)));
-  }
-  if constexpr (sides == 4)  // the diagonal along which the quad is cut
-    made->deviation =
-        std::max(made->deviation, distance_from_segment(centre.position, corners_[0].position, corners_[2].position));
   return made;
 }
 
@@ -239,7 +278,7 @@ template <class ChildrenOf>
 auto ChordNode<S>::neighbour(std::size_t edge, const ChildrenOf& children_of) const -> Neighbour {
   if (is_outer(edge) || !parent_) return {};
   const auto k = static_cast<std::size_t>(number_);
-  const Children& siblings = *parent_->known_children();
+  const Children& siblings = *parent_->children_.load(std::memory_order_acquire);
   if constexpr (sides == 3) {
     if (k == 3) return {&siblings.nodes[(edge + 2) % 3], edge};
     if (edge == (k + 1) % 3) return {&siblings.nodes[3], edge};
