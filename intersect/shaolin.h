@@ -8,6 +8,7 @@
 
 #include "../schemes/scheme_surface.h"
 #include "bvh.h"
+#include "chord_plane.h"
 #include "counters.h"
 #include "exact_finish.h"
 #include "face_bounds.h"
@@ -115,7 +116,6 @@ class ShaoLin {
     return known ? *known : make_start_patch(primitive);
   }
   const StartPatch& make_start_patch(int primitive) const;
-  Vec3 plane_normal(const Patch<S>& patch) const;
   template <Query query>
   void descend(const Node& node, Search& search) const;
   void finish(const Node& node, Search& search) const;
@@ -165,24 +165,11 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface)
   start_patches_ = std::vector<std::atomic<StartPatch*>>(boxes.size());
 }
 
-/// The normal of TP: of the plane through the corners' limit points (section 8.2 for quads). A corner whose limit masks
-/// do not apply yet lends its control point; the plane only serves to orient RP and CP.
-template <Scheme S, template <class> class Finish>
-Vec3 ShaoLin<S, Finish>::plane_normal(const Patch<S>& patch) const {
-  std::vector<Vec3> corners;
-  for (int k = 0; k < patch.configuration->corner_count(); ++k) {
-    const std::optional<LimitAtCorner> limit = corner_limit(patch, k);
-    corners.push_back(limit ? limit->position : patch.points[static_cast<std::size_t>(k)]);
-  }
-  using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
-  return Base::chord_normal(corners);
-}
-
 template <Scheme S, template <class> class Finish>
 auto ShaoLin<S, Finish>::make_start_patch(int primitive) const -> const StartPatch& {
   const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
   Patch<S> patch = surface_.patch(face, sub);
-  const Vec3 normal = plane_normal(patch);
+  const Vec3 normal = chord_plane_normal(patch);
   TreeTotals made_totals;  // counted if no other thread is first
   auto made = std::make_unique<StartPatch>(std::move(patch), surface_.splits_by_corner(face), normal, bvh_.space(),
                                            made_totals);
