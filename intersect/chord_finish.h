@@ -3,6 +3,7 @@
 /// left in progress.
 #include "chord_search.h"
 #include "plane_hull.h"
+#include "valid_parts.h"
 
 namespace shaolin {
 
@@ -21,7 +22,7 @@ class ChordFinish {
   struct Part {
     Node root;
     Vec3 normal;           ///< of TP
-    bool is_valid = true;  ///< equation 6 holds
+    bool is_valid = true;  ///< equation 6 holds for sure
   };
 
   class StartPatch {
@@ -69,12 +70,30 @@ class ChordFinish {
 
 template <Scheme S>
 ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ChordFinish& finish,
-                                       TreeTotals&)
+                                       TreeTotals& totals)
     : box_(limit_bound(patch)), scene_box_({}, space) {
-  auto part = std::make_unique<Part>();
-  part->normal = plane_normal(patch);
-  part->root.make_root(std::move(patch), level, Parameter::Zero(), 1, finish.hulls());
-  parts_.push_back(std::move(part));
+  using D = Domain<S::face_kind>;
+  const auto add = [&](const Patch<S>& points, const std::vector<std::uint8_t>& path, const Vec3& normal, bool valid) {
+    Parameter origin = Parameter::Zero();
+    double scale = 1;
+    for (const std::uint8_t k : path) {
+      origin += scale * D::to_parent(k, Parameter::Zero());
+      scale *= D::scale(k);
+    }
+    auto part = std::make_unique<Part>();
+    part->normal = normal;
+    part->is_valid = valid;
+    part->root.make_root(points, level + static_cast<int>(path.size()), origin, scale, finish.hulls());
+    parts_.push_back(std::move(part));
+  };
+  if (finish.options_.valid_patches) {
+    const ValidityCounts counts = for_each_valid_part(
+        patch, [&](const ValidPart<S>& part) { add(part.patch, part.path, part.plane_normal, part.resolved); });
+    totals.invalid_patches += counts.split;
+    totals.unresolved_patches += counts.unresolved;
+  } else {
+    add(patch, {}, chord_plane_normal(patch), true);
+  }
   const double slack = 160 * unit_roundoff * box_.largest_coordinate();  // see PatchNode::add_slack()
   box_.lower.array() -= slack;
   box_.upper.array() += slack;

@@ -1,5 +1,6 @@
 #pragma once
-/// The plane TP of Mueller et al. 2003, section 6: of a patch's chord face.
+/// The plane TP that a patch is projected to.
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -8,11 +9,10 @@
 
 namespace shaolin {
 
-/// The normal of TP: of the plane through the corners' limit points (section 8.2 for quads), unit, or zero where they
-/// span no plane. A corner whose limit masks do not apply yet lends its control point; the plane only serves to orient
-/// RP and CP.
+/// The unit normal of TP: of the plane through the corners' limit points (section 8.2 of the paper for quads). A corner
+/// whose limit masks do not apply yet lends its control point. Zero if the corners span no plane.
 template <Scheme S>
-Vec3 plane_normal(const Patch<S>& patch) {
+Vec3 chord_plane_normal(const Patch<S>& patch) {
   std::vector<Vec3> corners;
   for (int k = 0; k < patch.configuration->corner_count(); ++k) {
     const std::optional<LimitAtCorner> limit = corner_limit(patch, k);

@@ -27,7 +27,7 @@ class ExactFinish {
   class StartPatch {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ExactFinish&, TreeTotals& totals)
-        : normal_(plane_normal(patch)), root_(std::move(patch), level, space, totals), box_(root_.box(), space) {}
+        : normal_(chord_plane_normal(patch)), root_(std::move(patch), level, space, totals), box_(root_.box(), space) {}
 
     const SceneBox& box() const { return box_; }
     const Node& root() const { return root_; }

@@ -7,12 +7,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "corner_regularity.h"
 #include "domain.h"
 #include "flat_net.h"
 #include "hull_expansion.h"
 #include "limit_bound.h"
 #include "limit_rows.h"
 #include "neighbourhood.h"
+#include "net_edges.h"
 #include "refinement.h"
 #include "regular_layout.h"
 #include "scheme.h"
@@ -44,6 +46,7 @@ class Configuration {
         layout_(regular_layout<Regular>(basis_of(table.rules().scheme), neighbourhood_)),
         children_(static_cast<std::size_t>(child_count())),
         limit_rows_(static_cast<std::size_t>(corner_count())),
+        regularities_(static_cast<std::size_t>(corner_count())),
         table_(table) {}
   ~Configuration() {
     for (const auto& child : children_) delete child.load();
@@ -51,6 +54,8 @@ class Configuration {
     delete hull_expansion_.load();
     delete descents_.load();
     delete flat_net_.load();
+    delete net_edges_.load();
+    for (const auto& regularity : regularities_) delete regularity.load();
   }
   Configuration(const Configuration&) = delete;
   Configuration& operator=(const Configuration&) = delete;
@@ -107,7 +112,37 @@ class Configuration {
     });
   }
 
+  /// The edges of the control net, of all faces that have a say in the patch. Thread-safe.
+  const std::vector<std::array<int, 2>>& net_edges() const {
+    return once(net_edges_, [&] {
+      const bool own_only = basis_of(scheme()) == Basis::linear;
+      return shaolin::net_edges(neighbourhood_, own_only);
+    });
+  }
+
+  /// See corner_regularity.h. Empty unless the split at corner k leads to this configuration again and all others to
+  /// regular ones. Thread-safe.
+  const std::optional<CornerRegularity>& corner_regularity(int k) const {
+    return once(regularities_[static_cast<std::size_t>(k)], [&] { return find_corner_regularity(k); });
+  }
+
  private:
+  std::optional<CornerRegularity> find_corner_regularity(int k) const {
+    constexpr int most_points = 150;  // 100 powers of a matrix of that size take 0.1 s
+    if (is_regular() || point_count_ > most_points) return {};
+    const std::optional<LimitRows>& rows = derived_limit(k);
+    if (!rows) return {};
+    std::vector<RingChild> children;
+    for (int i = 0; i < child_count(); ++i) {
+      const Child& child = this->child(i);
+      RingChild& as_matrix = children.emplace_back(RingChild{matrix_of(child.program, point_count_), {}});
+      if (i == k) continue;
+      if (!child.configuration->is_regular()) return {};
+      as_matrix.bezier = bezier_matrix(*child.configuration->layout(), child.configuration->point_count());
+    }
+    return shaolin::corner_regularity<Regular>(children, k, *rows);
+  }
+
   /// What `slot` holds, made now if nobody made it before.
   template <class Value, class Make>
   static const Value& once(std::atomic<Value*>& slot, Make make) {
@@ -125,8 +160,10 @@ class Configuration {
   mutable std::atomic<double*> hull_expansion_{nullptr};
   mutable std::atomic<Descents*> descents_{nullptr};
   mutable std::atomic<std::optional<FlatNet>*> flat_net_{nullptr};
+  mutable std::atomic<std::vector<std::array<int, 2>>*> net_edges_{nullptr};
   mutable std::vector<std::atomic<Child*>> children_;
   mutable std::vector<std::atomic<std::optional<LimitRows>*>> limit_rows_;
+  mutable std::vector<std::atomic<std::optional<CornerRegularity>*>> regularities_;
   ConfigurationTable<S>& table_;
 };
 

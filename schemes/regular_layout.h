@@ -46,6 +46,20 @@ struct RegularLayout {
   }
 };
 
+/// The layout as a matrix: Bezier points = matrix * control points.
+template <class Bezier>
+Eigen::MatrixXd bezier_matrix(const RegularLayout<Bezier>& layout, int points) {
+  Eigen::MatrixXd matrix(Bezier::size, points);
+  std::vector<Vec3> unit(static_cast<std::size_t>(points), Vec3::Zero());
+  for (int i = 0; i < points; ++i) {
+    unit[static_cast<std::size_t>(i)].x() = 1;
+    const Bezier column = layout.patch(unit.data());
+    for (int row = 0; row < Bezier::size; ++row) matrix(row, i) = column.b[static_cast<std::size_t>(row)].x();
+    unit[static_cast<std::size_t>(i)].x() = 0;
+  }
+  return matrix;
+}
+
 /// The layout of a regular patch; empty if the neighbourhood is irregular or no basis is known. Linear: any face of the
 /// scheme's own kind. Spline: every corner must be smooth and of regular valence, or lie on an infinitely sharp crease
 /// (a boundary) with half as many faces on this side, or be an infinitely sharp corner of a single face. Takes the

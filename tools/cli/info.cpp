@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "intersect/validity.h"
 #include "tools/cli/mesh_counts.h"
 #include "tools/cli/scene_info.h"
 #include "tools/cli/stage.h"
@@ -87,6 +88,16 @@ void print_vertices(const MeshCounts& counts) {
   for (const auto& [valence, number] : counts.vertices_by_valence) print_count(std::to_string(valence), number);
 }
 
+/// What the paper's section 8.1 asks of every patch before it is traced by chord triangles.
+void print_validity(const LimitSurface& surface) {
+  const ValidityCounts counts = count_valid_parts(surface);
+  print_heading("Patches, projected to their planes");
+  print_count("all", counts.patches);
+  print_count("may overlap themselves, so are split", counts.split);
+  print_count("parts that they all come to", counts.parts);
+  print_count("parts that still may overlap themselves", counts.unresolved);
+}
+
 void print_bounds(const ControlMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Vec3& position : mesh.positions) box.extend(position);
@@ -115,6 +126,7 @@ int info(const InfoOptions& options) {
   print_faces(counts, *surface);
   print_edges(counts);
   print_vertices(counts);
+  print_validity(*surface);
   print_bounds(mesh);
   print_warnings(mesh);
   return exit_done;
