@@ -163,6 +163,52 @@ TEST_CASE("Without border areas rays are lost", "[intersect][chord]") {
 
 TEST_CASE("With all parts, none of these rays is", "[intersect][chord]") { CHECK(over_models({}, 4000).lost == 0); }
 
+namespace {
+
+/// A sheet whose middle face bulges like that of the paper's Figure 12: its own corners stand up, the control points
+/// around are drawn in under it, across the middle by `pull`, and go down by `depth` a step.
+Model bulging(const std::string& scheme, double pull, double depth) {
+  ControlMesh mesh = sheet(scheme, 5, 5);
+  const auto face = mesh.face(scheme == "loop" ? 24 : 12);
+  Vec3 centre = Vec3::Zero();
+  for (const int v : face) centre += mesh.positions[static_cast<std::size_t>(v)] / static_cast<double>(face.size());
+  std::vector<Vec3> moved;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3 way = mesh.positions[v] - centre;
+    const bool is_own = std::find(face.begin(), face.end(), static_cast<int>(v)) != face.end();
+    moved.push_back(is_own ? Vec3(way.x(), way.y(), 1) : Vec3(-0.7 * pull * way.normalized()));
+    if (!is_own) moved.back().z() = -depth * way.norm();
+  }
+  mesh.positions = moved;
+  return {"bulging", scheme, mesh};
+}
+
+}  // namespace
+
+TEST_CASE("Without the test of patches that bulge beyond their chords rays are lost", "[intersect][chord]") {
+  Agreements with, without;
+  for (const std::string scheme : {"loop", "catmark"})
+    for (const double pull : {0.5, 0.6, 1.0, 1.2, 1.5})
+      for (const double depth : {1.0, 2.0}) {
+        const Reference reference(bulging(scheme, pull, depth));
+        CAPTURE(scheme, pull, depth);
+        SceneOptions options = by_chords(2e-3 * reference.size);
+        const Scene chords = reference.scene(options);
+        options.chord.valid_patches = false;
+        const Scene unchecked = reference.scene(options);
+        for (const Ray& ray : random_rays(reference.exact.bounds(), 3000, 7)) {
+          const double band = 2 * options.chord.epsilon;
+          with.add(agreement(reference.exact, ray, chords.intersect(ray), band));
+          without.add(agreement(reference.exact, ray, unchecked.intersect(ray), band));
+        }
+        CHECK(chords.statistics().invalid_patches > 0);
+        CHECK(unchecked.statistics().invalid_patches == 0);
+      }
+  CHECK(without.lost > 0);
+  CHECK(with.lost == 0);
+  CHECK(with.ghosts == 0);
+}
+
 TEST_CASE("Error and level follow epsilon", "[intersect][chord]") {
   for (const Method method : {Method::chord, Method::a3})
     for (const Model& model : models()) {
