@@ -198,7 +198,7 @@ TEST_CASE("A bent strip is valid in planes that it does not turn away from", "[i
   // is theta / 16 beyond the patch.
   constexpr double quarter = std::numbers::pi / 2;
   int valid = 0, left_out = 0;
-  for (double theta = 0.05; theta < 2; theta += 0.05)
+  for (double theta = 0.05; theta < 1.7; theta += 0.05)
     for (double phi = 0; phi < quarter; phi += 0.03) {
       const auto strip = [&](double x, double y) { return Vec3(std::sin(theta * x), y, std::cos(theta * x)); };
       const Middle<CatmullClark> middle(strip);
@@ -210,7 +210,7 @@ TEST_CASE("A bent strip is valid in planes that it does not turn away from", "[i
       valid += is_valid;
       left_out += !is_valid && phi + theta / 2 < quarter;
     }
-  CHECK(valid > 700);
+  CHECK(valid > 600);
   CHECK(left_out > 10);
   CHECK(left_out < valid / 10);
 }

@@ -343,8 +343,9 @@ TEST_CASE("info counts what is in the file", "[tools][cli]") {
     lines.insert(squeezed);
   }
   CAPTURE(outcome.text);
-  for (const std::string expected : {"scheme loop (all faces are triangles)", "triangles 3", "boundary 3", "isolated 1",
-                                     "on a boundary 3", "smooth 1", "crease 3", "lower -1 -1 -1", "upper 5 5 5"})
+  for (const std::string expected :
+       {"scheme loop (all faces are triangles)", "triangles 3", "boundary 3", "isolated 1", "on a boundary 3",
+        "smooth 1", "crease 3", "parts that they all come to 3", "lower -1 -1 -1", "upper 5 5 5"})
     CHECK(lines.count(expected) == 1);
   CHECK(outcome.text.find("shaolin: warning: ") != std::string::npos);
 }
