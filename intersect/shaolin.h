@@ -2,6 +2,7 @@
 /// ShaoLin, the shadow of the line: ray queries on the limit surface of a subdivision mesh (Mueller, Techmann, Fellner,
 /// "Adaptive ray tracing of subdivision surfaces", Eurographics 2003), with an exact finish in place of chord
 /// triangles.
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -154,8 +155,8 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface) : surface_(surface)
     box.upper.array() += slack;
     if (!box.lower.allFinite() || !box.upper.allFinite())
       throw InputError("nothing bounds the surface of face " + std::to_string(f) +
-                       ": its coordinates are too large, or the masks of the scheme do not converge; see 'shaolin "
-                       "scheme check'");
+                       ": its coordinates are too large, or the masks of the scheme do not sum to one or not "
+                       "converge; see 'shaolin scheme check'");
     for (int sub = 0; sub < surface.sub_count(f); ++sub) {
       boxes.push_back(box);
       primitives_.push_back({f, sub});
@@ -245,7 +246,8 @@ template <Scheme S, template <class> class Finish>
 LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParameter& at) const {
   constexpr int deepest_absolute = 8;
   const bool regular = found.node->is_regular();
-  if (regular && found.node->level() <= deepest_absolute) return polynomial_sample(found);
+  if (regular && found.node->level() <= deepest_absolute && !surface_.control_mesh().is_collapsed(at.face))
+    return polynomial_sample(found);
   // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
   LimitSample sample = *surface_.evaluate(at);
   if (regular) {
@@ -258,8 +260,9 @@ LimitSample ShaoLin<S, Finish>::sample(const Found& found, const SurfaceParamete
 
 template <Scheme S, template <class> class Finish>
 SHAOLIN_FLATTEN LimitSample ShaoLin<S, Finish>::polynomial_sample(const Found& found) {
+  const double scale = found.node->scale();  // plus or minus 2^-level
   return detail::sample(found.node->regular().template bezier<Regular>(), found.hit.at, Vec3::Zero(),
-                        1 / found.node->scale(), 1);
+                        {std::copysign(1.0, scale), -std::ilogb(scale), 0});
 }
 
 /// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,
