@@ -1,6 +1,7 @@
 #pragma once
 /// The exact finish: patches are split until a Newton iteration on the limit surface is safe. It goes beyond the paper:
 /// hits are on the limit surface to rounding error, so no gap polygon and no W-case can arise.
+#include <cmath>
 #include <optional>
 
 #include "../schemes/scheme_surface.h"
@@ -108,7 +109,8 @@ template <Scheme S>
 LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface) {
   constexpr int deepest_absolute = 8;
   const bool regular = found.node->is_regular();
-  if (regular && found.node->level() <= deepest_absolute) return polynomial_sample(found);
+  if (regular && found.node->level() <= deepest_absolute && !surface.control_mesh().is_collapsed(at.face))
+    return polynomial_sample(found);
   // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
   LimitSample sample = *surface.evaluate(at);
   if (regular) {
@@ -121,8 +123,9 @@ LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& a
 
 template <Scheme S>
 SHAOLIN_FLATTEN LimitSample ExactFinish<S>::polynomial_sample(const Found& found) {
+  const double scale = found.node->scale();  // plus or minus 2^-level
   return detail::sample(found.node->regular().template bezier<Regular>(), found.at, Vec3::Zero(),
-                        1 / found.node->scale(), 1);
+                        {std::copysign(1.0, scale), -std::ilogb(scale), 0});
 }
 
 /// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,

@@ -108,8 +108,8 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
     box.upper.array() += slack;
     if (!box.lower.allFinite() || !box.upper.allFinite())
       throw InputError("nothing bounds the surface of face " + std::to_string(f) +
-                       ": its coordinates are too large, or the masks of the scheme do not converge; see 'shaolin "
-                       "scheme check'");
+                       ": its coordinates are too large, or the masks of the scheme do not sum to one or not "
+                       "converge; see 'shaolin scheme check'");
     for (int sub = 0; sub < surface.sub_count(f); ++sub) {
       boxes.push_back(box);
       primitives_.push_back({f, sub});

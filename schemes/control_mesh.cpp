@@ -232,6 +232,13 @@ class MeshCheck {
 
 }  // namespace
 
+bool ControlMesh::is_collapsed(int face_index) const {
+  const std::span<const int> v = face(face_index);
+  std::size_t steps = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) steps += v[i] != v[(i + 1) % v.size()];
+  return steps < 3;
+}
+
 bool ControlMesh::all_triangles() const {
   for (int f = 0; f < face_count(); ++f) {
     if (face_size(f) != 3) return false;

@@ -64,6 +64,10 @@ struct ControlMesh {
   }
   bool all_triangles() const;
 
+  /// Fewer than three of the face's sides join different vertices: it is a segment or a point, without a normal. O(its
+  /// size).
+  bool is_collapsed(int face) const;
+
   /// The length of the diagonal of the control points' bounding box: the length unit of error reports.
   double diagonal() const;
 };

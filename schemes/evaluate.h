@@ -36,20 +36,28 @@ Parameter corner_parameter(int k) {
   return {corner[0], corner[1]};
 }
 
-/// The polynomial's sample. Its points are the surface's less `anchor`, times `magnification`; its parameters are the
-/// root's times `scale`.
+/// The vector times 2^exponent, which itself may be no double.
+inline Vec3 times_power(const Vec3& vector, int exponent) {
+  return vector.unaryExpr([=](double x) { return std::ldexp(x, exponent); });
+}
+
+/// A piece under the magnifying glass: its points are the surface's less an anchor, times 2^points; its parameters are
+/// the root's times sign 2^parameters. (In exponents: 1100 levels deep their powers are no doubles.)
+struct Zoom {
+  double sign = 1;
+  int parameters = 0, points = 0;
+};
+
+/// The polynomial's sample.
 template <class Regular>
-LimitSample sample(const Regular& piece, const Parameter& at, const Vec3& anchor, double scale, double magnification) {
+LimitSample sample(const Regular& piece, const Parameter& at, const Vec3& anchor, const Zoom& zoom) {
   Derivatives d = piece.derivatives(at);
   // Normalised first: the product of tiny vectors would underflow.
   const Vec3 normal = d.du.stableNormalized().cross(d.dv.stableNormalized()).stableNormalized();
-  const double first = scale / magnification;
-  d.du *= first;
-  d.dv *= first;
-  d.duu *= first * scale;
-  d.duv *= first * scale;
-  d.dvv *= first * scale;
-  return {anchor + piece.position(at) / magnification, normal, d};
+  const int first = zoom.parameters - zoom.points, second = first + zoom.parameters;
+  for (Vec3* derivative : {&d.du, &d.dv}) *derivative = zoom.sign * times_power(*derivative, first);
+  for (Vec3* derivative : {&d.duu, &d.duv, &d.dvv}) *derivative = times_power(*derivative, second);
+  return {anchor + times_power(piece.position(at), -zoom.points), normal, d};
 }
 
 }  // namespace detail
@@ -106,34 +114,36 @@ LimitSample evaluate(Patch<S> patch, Parameter at, bool one_sided) {
   using D = Domain<S::face_kind>;
   constexpr int levels_between_anchors = 8;
   Vec3 anchor = Vec3::Zero();
-  double scale = 1, magnification = 1;
+  detail::Zoom zoom;
   at = D::nearest(at);
   for (int level = 0, anchored = -levels_between_anchors; !patch.is_regular(); ++level) {
     const int corner = detail::nearest_corner<S>(at);
     // Only a scheme that does not converge comes here.
     if (level > detail::most_levels)
-      return {anchor + patch.points[static_cast<std::size_t>(corner)] / magnification, Vec3::Zero(), {}};
+      return {
+          anchor + detail::times_power(patch.points[static_cast<std::size_t>(corner)], -zoom.points), Vec3::Zero(), {}};
     if (at == detail::corner_parameter<S>(corner) && !patch.child(corner).is_regular()) {
       if (std::optional<LimitSample> limit = evaluate_corner(patch, corner, one_sided)) {
-        limit->position = anchor + limit->position / magnification;
+        limit->position = anchor + detail::times_power(limit->position, -zoom.points);
         return *limit;
       }
     }
     if (level >= anchored + levels_between_anchors) {
       if (const std::optional<LimitAtCorner> limit = corner_limit(patch, corner)) {
-        const double more = std::ldexp(1.0, level - std::max(anchored, 0));
-        for (Vec3& point : patch.points) point = (point - limit->position) * more;
-        anchor += limit->position / magnification;
-        magnification *= more;
+        const int more = level - std::max(anchored, 0);
+        for (Vec3& point : patch.points) point = detail::times_power(point - limit->position, more);
+        anchor += detail::times_power(limit->position, -zoom.points);
+        zoom.points += more;
         anchored = level;
       }
     }
     const ChildParameter inside = D::to_child(at);
     patch = patch.child(inside.child);
     at = D::nearest(inside.at);  // a rounding may leave the middle child of a triangle
-    scale /= D::scale(inside.child);
+    zoom.sign *= std::copysign(1.0, D::scale(inside.child));
+    zoom.parameters -= std::ilogb(D::scale(inside.child));
   }
-  return detail::sample(patch.regular(), at, anchor, scale, magnification);
+  return detail::sample(patch.regular(), at, anchor, zoom);
 }
 
 }  // namespace shaolin

@@ -8,16 +8,25 @@
 
 namespace shaolin {
 
-/// True if the masks of vertices with 3 up to so many neighbours, and of edges, have no negative weight. Masks of
-/// radius 2 are taken to have some: which are asked for depends on pairs of vertices.
+/// True if the masks of vertices with 3 up to so many neighbours, of edges and of creases are convex combinations: no
+/// weight is negative, and they sum to one. (Masks that do not sum to one leave every hull, and every bound that counts
+/// on one.) Masks of radius 2 are taken to be none: which are asked for depends on pairs of vertices.
 template <Scheme S>
 bool has_convex_masks(const Rules<S>& rules, int most_neighbours) {
   if (rules.radius() == 2) return false;
-  for (const int triangles : {0, 1, 2})
-    if (const EdgeMask edge = rules.edge(triangles); edge.end < 0 || edge.side < 0) return false;
+  const auto is_one = [](double sum) { return std::abs(sum - 1) <= 1e-12; };
+  const CreaseMask crease = rules.crease();
+  if (crease.vertex < 0 || crease.edge < 0 || !is_one(crease.vertex + 2 * crease.edge)) return false;
+  for (const int triangles : {0, 1, 2}) {
+    const EdgeMask edge = rules.edge(triangles);
+    if (edge.end < 0 || edge.side < 0 || !is_one(2 * (edge.end + edge.side))) return false;
+  }
   for (int n = 3; n <= most_neighbours; ++n)
-    for (const VertexMask& mask : {rules.scheme.smooth_vertex(n), dart_vertex_of(rules.scheme, n)})
+    for (const VertexMask& mask :
+         {rules.scheme.smooth_vertex(n), dart_vertex_of(rules.scheme, n), cone_vertex_of(rules.scheme, n)}) {
       if (mask.vertex < 0 || mask.edge < 0 || mask.face < 0) return false;
+      if (!is_one(mask.vertex + n * (mask.edge + mask.face))) return false;
+    }
   return true;
 }
 

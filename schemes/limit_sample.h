@@ -21,8 +21,9 @@ struct Derivatives {
   Vec3 du, dv, duu, duv, dvv;
 };
 
-/// Limit position, unit limit normal (along du x dv), and the derivatives where they exist: at an irregular vertex
-/// they vanish or diverge, there the limit masks give the normal and `derivatives` is empty.
+/// Limit position, unit limit normal (along du x dv; zero where the surface has none, as where it is a segment or a
+/// point), and the derivatives where they exist: at an irregular vertex they vanish or diverge, there the limit masks
+/// give the normal and `derivatives` is empty.
 struct LimitSample {
   Vec3 position;
   Vec3 normal;

@@ -28,7 +28,6 @@ class Cutter {
 
  private:
   void collect_sides();
-  bool is_collapsed(int face) const;
   bool is_manifold(std::span<const Side> edge) const;
   void inspect(std::span<const Side> edge);
   void join_fans(std::span<const Side> edge);
@@ -84,14 +83,6 @@ void Cutter::collect_sides() {
   fans_.resize(mesh_.positions.size());
 }
 
-/// Fewer than three of the face's sides join different vertices: it has no inside that half-edges could go round.
-bool Cutter::is_collapsed(int face) const {
-  const std::span<const int> v = mesh_.face(face);
-  std::size_t steps = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) steps += v[i] != v[(i + 1) % v.size()];
-  return steps < 3;
-}
-
 bool Cutter::is_manifold(std::span<const Side> edge) const {
   if (edge[0].low == edge[0].high || edge.size() > 2) return false;
   if (edge.size() == 1) return true;
@@ -131,12 +122,12 @@ int Cutter::piece(int corner) {
 }
 
 /// Two faces that meet in a manifold edge are in one fan at both ends; so are both corners of an edge of equal ends. A
-/// collapsed face keeps its corners apart: every one is sharp, and so is every side, so it is what it would be with
-/// vertices of its own, a segment or a point.
+/// collapsed face, which has no inside that half-edges could go round, keeps its corners apart: every one is sharp, and
+/// so is every side, so it is what it would be with vertices of its own, a segment or a point.
 void Cutter::join_fans(std::span<const Side> edge) {
   if (edge[0].low == edge[0].high) {
     for (const Side& side : edge)
-      if (!is_collapsed(side.face)) join(corner_index(side, false), corner_index(side, true));
+      if (!mesh_.is_collapsed(side.face)) join(corner_index(side, false), corner_index(side, true));
   } else if (edge.size() == 2 && is_manifold(edge)) {
     join(corner_index(edge[0], false), corner_index(edge[1], true));
     join(corner_index(edge[0], true), corner_index(edge[1], false));

@@ -19,7 +19,7 @@ struct ManifoldMesh {
   std::vector<int> face_offsets, face_vertices;  ///< the input's faces, over cut vertices (repeats kept)
   std::vector<float> vertex_sharpness;           ///< per cut vertex; boundary corners and cuts included
   std::vector<char> is_cone;                     ///< per cut vertex
-  std::vector<char> has_limit;  ///< per face: no hole, no uninterpolated boundary
+  std::vector<char> has_limit;                   ///< per face: no hole, no uninterpolated boundary
   CreaseMethod crease_method = CreaseMethod::uniform;
   int cut_edges = 0;     ///< non-manifold edges of the input
   int cut_vertices = 0;  ///< vertices that fell into several pieces

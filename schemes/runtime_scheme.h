@@ -23,6 +23,7 @@ class SchemeMasks {
   virtual VertexMask dart_vertex(int n) const { return smooth_vertex(n); }
   virtual VertexMask cone_vertex(int n) const { return smooth_vertex(n); }
   virtual EdgeMask smooth_edge() const { return {}; }
+  virtual EdgeMask triangle_edge(int) const { return smooth_edge(); }
   virtual RingMask edge_end(int, int) const { return {}; }
   virtual RingMask face_corner(int n) const { return quarter_of_corner(n); }
   virtual bool has_closed_limits() const { return false; }
@@ -46,6 +47,10 @@ class MasksOf final : public SchemeMasks {
   EdgeMask smooth_edge() const override {
     if constexpr (EdgeMasks<S>) return scheme_.smooth_edge();
     return {};
+  }
+  EdgeMask triangle_edge(int triangles) const override {
+    if constexpr (requires { scheme_.triangle_edge(triangles); }) return scheme_.triangle_edge(triangles);
+    return smooth_edge();
   }
   RingMask edge_end(int n, int other) const override {
     if constexpr (RingMasks<S>) return scheme_.edge_end(n, other);
@@ -93,6 +98,7 @@ struct RuntimeScheme {
   VertexMask dart_vertex(int n) const { return masks->dart_vertex(n); }
   VertexMask cone_vertex(int n) const { return masks->cone_vertex(n); }
   EdgeMask smooth_edge() const { return masks->smooth_edge(); }
+  EdgeMask triangle_edge(int triangles) const { return masks->triangle_edge(triangles); }
   RingMask edge_end(int n, int other) const { return masks->edge_end(n, other); }
   RingMask face_corner(int n) const { return masks->face_corner(n); }
   LimitMask smooth_limit(int n) const { return masks->smooth_limit(n); }

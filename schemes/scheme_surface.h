@@ -29,6 +29,7 @@ class SchemeSurface final : public LimitSurface {
       throw InputError("the limit at face " + std::to_string(at.face) +
                        " is not finite: its coordinates are too large, or the masks of the scheme do not converge; see "
                        "'shaolin scheme check'");
+    if (control_.is_collapsed(at.face)) sample.normal.setZero();  // rounding alone gave it a direction
     return sample;
   }
 

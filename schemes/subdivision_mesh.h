@@ -34,9 +34,7 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
   /// The coarser mesh, null at level 0; and navigation between both.
   const SubdivisionMesh* parent() const { return parent_; }
-  int child_count(int face) const {
-    return S::face_kind == FaceKind::triangle ? 4 : this->face_size(face);
-  }
+  int child_count(int face) const { return S::face_kind == FaceKind::triangle ? 4 : this->face_size(face); }
   int child_face(int face, int k) const { return first_child_[static_cast<std::size_t>(face)] + k; }
   int parent_face(int face) const { return parent_face_[static_cast<std::size_t>(face)]; }
   int child_of_vertex(int vertex) const { return vertex; }

@@ -95,6 +95,34 @@ TEST_CASE("usage errors exit with 2 and write nothing", "[tools][cli]") {
   CHECK(folder.list().empty());
 }
 
+TEST_CASE("an output that is another output's file, or an input's, is a usage error", "[tools][cli]") {
+  const Folder folder;
+  const std::string model = folder.write("cube.obj", cube), exr = folder / "out.exr",
+                    dotted = folder / "./x/../out.exr";
+  const std::string rays = folder.write("rays.csv", "0,0,5,0,0,-1\n"), params = folder.write("params.csv", "0,0,0,0\n");
+  std::filesystem::create_symlink("rays.csv", folder / "link.csv");
+  const auto before = folder.list();
+  for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+           {"render", model, "--size", "8x8", "-o", exr, "--png", exr},
+           {"render", model, "--size", "8x8", "-o", exr, "--png", dotted},
+           {"render", model, "--size", "8x8", "-o", exr, "--png-level", dotted},
+           {"render", model, "--size", "8x8", "-o", folder / "a.exr", "--png", exr, "--stats", dotted},
+           {"render", model, "--size", "8x8", "-o", model},
+           {"query", model, "--rays", rays, "-o", rays},
+           {"query", model, "--rays", rays, "-o", folder / "link.csv"},
+           {"query", model, "--rays", rays, "-o", model},
+           {"eval", model, "--params", params, "-o", folder / "./params.csv"},
+           {"validate", model, "--rays", "0", "--evaluations", "1", "--report", model}}) {
+    const Outcome outcome = folder.run(line);
+    CAPTURE(line, outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find("is the file of") != std::string::npos);
+    CHECK(folder.list() == before);
+  }
+  CHECK(read_file(model) == cube);
+  CHECK(folder.run({"render", model, "--size", "8x8", "-o", "/dev/null", "--stats", "/dev/null"}).status == 0);
+}
+
 TEST_CASE("files that are missing or unusable exit with 3", "[tools][cli]") {
   const Folder folder;
   const std::string torus = data_file("torus.obj"), absent = folder / "absent", csv = folder / "out.csv";
@@ -125,12 +153,21 @@ TEST_CASE("query refuses bad rows with file and line", "[tools][cli]") {
   for (const std::string row : {"0,0,5,0,0", "0,0,5,0,0,-1,0", "0,0,5,0,0,-1,0,9,9", "0,0,5,0,down,-1", "0,0,5,0,,-1",
                                 "0,0,5,0,0,0", "0,0,5,0,0,nan", "0,0,5,0,0,inf", "0,nan,5,0,0,-1", "inf,0,5,0,0,-1",
                                 "0,0,5,0,0,-1,nan,9", "0,0,5,0,0,-1,0,nan"}) {
-    const std::string rays = folder.write("rays.csv", "ox,oy,oz,dx,dy,dz\n0,0,5,0,0,-1\n" + row + "\n0,0,5,0,0,-1\n");
+    const bool limited = std::count(row.begin(), row.end(), ',') == 7;
+    const std::string end = limited ? ",0,9\n" : "\n", header = limited ? ",tmin,tmax\n" : "\n";
+    const std::string rays =
+        folder.write("rays.csv", "ox,oy,oz,dx,dy,dz" + header + "0,0,5,0,0,-1" + end + row + "\n0,0,5,0,0,-1" + end);
     check_refused(folder, {"query", model, "--rays", rays, "-o", output}, rays + ":3:");
     check_refused(folder, {"query", model, "--rays", rays, "-o", output, "--any"}, rays + ":3:");
   }
-  const std::string reordered = folder.write("reordered.csv", "dx,dy,dz,ox,oy,oz\n0,0,-1,0,0,5\n");
-  check_refused(folder, {"query", model, "--rays", reordered, "-o", output}, reordered);
+  const std::string reordered = folder.write("reordered.csv", "\ndx,dy,dz,ox,oy,oz\n0,0,-1,0,0,5\n");
+  check_refused(folder, {"query", model, "--rays", reordered, "-o", output}, reordered + ":2: the header is 'dx,");
+  const std::string shorter = folder.write("shorter.csv", "ox,oy,oz,dx,dy,dz,tmin,tmax\n0,0,5,0,0,-1\n");
+  check_refused(folder, {"query", model, "--rays", shorter, "-o", output},
+                shorter + ":2: a row with 6 columns, expected 8 as in the header");
+  const std::string longer = folder.write("longer.csv", "ox,oy,oz,dx,dy,dz\n0,0,5,0,0,-1\n0,0,5,0,0,-1,0,1\n");
+  check_refused(folder, {"query", model, "--rays", longer, "-o", output},
+                longer + ":3: a row with 8 columns, expected 6 as in the header");
 }
 
 TEST_CASE("a failing query leaves an older output as it was", "[tools][cli]") {
@@ -327,6 +364,58 @@ TEST_CASE("eval leaves fields empty where there is nothing to say", "[tools][cli
   // A vertex of valence 3: position and normal exist, derivatives do not.
   CHECK(vector_at(table[3], 7).norm() == Approx(1).epsilon(1e-14));
   CHECK(all_empty(table[3], 10));
+}
+
+TEST_CASE("a normal is empty where the surface has none", "[tools][cli]") {
+  // A segment by its vertices, and a point by its positions.
+  const Folder folder;
+  const std::string model = folder.write("m.obj",
+                                         "v 0 0 0\nv 1 0.3 0.2\nv 3 3 3\nv 3 3 3\nv 3 3 3\nv 3 3 3\nf 1 2 2\n"
+                                         "f 3 4 5 6\nt scheme 0/0/1 catmark\n");
+  const std::string params = folder.write("params.csv", "0,0,0.5,0.25\n0,1,0,0\n1,0,0.5,0.25\n1,0,0,0\n");
+  const std::string output = folder / "out.csv", hits = folder / "hits.csv";
+  REQUIRE(folder.run({"eval", model, "--params", params, "-o", output}).status == 0);
+  const auto table = read_rows(output);
+  REQUIRE(table.size() == 5);
+  std::string rays;
+  for (std::size_t row = 1; row < 5; ++row) {
+    CHECK((table[row][7] + table[row][8] + table[row][9]).empty());
+    const Vec3 p = vector_at(table[row], 4);
+    rays += table[row][4] + ',' + table[row][5] + ',' + std::to_string(p.z() + 5) + ",0,0,-1\n";
+  }
+  REQUIRE(folder.run({"query", model, "--rays", folder.write("rays.csv", rays), "-o", hits}).status == 0);
+  for (const auto& row : read_rows(hits)) {
+    REQUIRE(row.size() == 13);
+    if (row[0] == "ray") continue;
+    CHECK(row[1] == "1");
+    CHECK(all_empty(row, 10));
+  }
+}
+
+TEST_CASE("derivatives are numbers as near to a corner as a double can be", "[tools][cli]") {
+  const Folder folder;
+  const std::string params = folder.write("params.csv", "0,0,1e-308,1e-308\n0,0,5e-324,0\n0,0,1e-200,1e-200\n");
+  const std::string output = folder / "out.csv";
+  const auto is_number = [](const std::string& field) {
+    return !field.empty() && std::isfinite(std::strtod(field.c_str(), nullptr));  // unlike stod, for tiny ones, too
+  };
+  const auto rows_of = [&](const std::string& model) {
+    REQUIRE(folder.run({"eval", model, "--params", params, "-o", output}).status == 0);
+    return read_rows(output);
+  };
+  const auto rows = rows_of(folder.write("cube.obj", cube));
+  for (std::size_t row = 1; row < rows.size(); ++row)
+    for (const std::string& field : rows[row]) CHECK(is_number(field));
+
+  // 1e142 times as large as the face's sides, second derivatives are too large for any double.
+  std::string large = cube;
+  for (std::size_t at = 0; (at = large.find("1 ", at)) < large.find('f'); at += 2) large.insert(at + 1, "e300");
+  for (std::size_t at = 0; (at = large.find("1\n", at)) < large.find('f'); at += 2) large.insert(at + 1, "e300");
+  const auto emptied = rows_of(folder.write("large.obj", large));
+  for (std::size_t row = 1; row < emptied.size(); ++row) {
+    for (std::size_t column = 4; column < 16; ++column) CHECK(is_number(emptied[row].at(column)));
+    CHECK(all_empty(emptied[row], 16));
+  }
 }
 
 TEST_CASE("info counts what is in the file", "[tools][cli]") {

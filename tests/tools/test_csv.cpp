@@ -128,6 +128,8 @@ TEST_CASE("Rows of another length are errors at their line", "[tools][csv]") {
   check_error("1,2,3,\n", 1, {"4 columns"});
   check_error("a,b\n1,2,3,4\n", 2, {"4 columns"});
   check_error("a,b,c,d\n1,2\n", 1, {"4 columns"});
+  check_error("a,b,c\n1,2,3\n1,2\n", 3, {"2 columns", "expected 3 as in the header"});
+  check_error("a,b\n1,2,3\n", 2, {"3 columns", "expected 2 as in the header"});
   check_error("1;2\n", 1, {"1 columns"});
 }
 

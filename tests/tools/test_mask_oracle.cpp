@@ -14,8 +14,6 @@ namespace {
 
 TEST_CASE("Plain refinement by the masks gives OpenSubdiv's surface", "[tools][oracle]") {
   for (const Model& model : feature_models()) {
-    // Beside triangles that are to be smooth, masks behind virtual functions have no rule of their own.
-    if (model.mesh.triangle_subdivision == TriangleSubdivision::smooth) continue;
     CAPTURE(model.name);
     const OpenSubdivOracle expected(model.mesh, model.scheme);
     const MaskOracle oracle(model.mesh, builtin_masks(model.scheme));
@@ -34,6 +32,24 @@ TEST_CASE("Plain refinement by the masks gives OpenSubdiv's surface", "[tools][o
     }
     CHECK(normals > 6);
   }
+}
+
+/// OpenSubdiv has none. Cones stay cones on the way, also where a mesh is refined once as a whole, and creases and
+/// darts win over them.
+TEST_CASE("Plain refinement knows conical vertices", "[tools][oracle]") {
+  for (Model& model : feature_models()) {
+    model.mesh.cones = {0, 3};
+    CAPTURE(model.name);
+    const MaskOracle oracle(model.mesh, builtin_masks(model.scheme));
+    const auto surface = make_limit_surface(model.mesh, model.scheme);
+    CHECK(check_evaluations(Evaluator::of(*surface), oracle, sample_parameters(oracle, 16, 3)).passed());
+  }
+  ControlMesh mesh = shaken(cube(), 0.13);
+  const auto smooth = make_limit_surface(mesh, "catmark");
+  mesh.cones = {0};
+  const MaskOracle oracle(mesh, builtin_masks("catmark"));
+  CHECK_FALSE(check_evaluations(Evaluator::of(*smooth), oracle, sample_parameters(oracle, 16, 3)).passed());
+  CHECK_THROWS_AS(OpenSubdivOracle(mesh, "catmark"), InputError);
 }
 
 TEST_CASE("Without a dense check, rays that were aimed find what is lost", "[tools][oracle]") {

@@ -67,8 +67,40 @@ TEST_CASE("masks that do not converge exit with 3 and leave no file", "[tools][p
       folder.run({"render", data_file("saddle.obj"), "-o", folder / "out.exr", "--size", "24x24", "--plugin", toy});
   CAPTURE(outcome.text);
   CHECK(outcome.status == 3);
-  CHECK(holds(outcome.text, "the masks of the scheme do not converge"));
+  CHECK(holds(outcome.text, "the masks of the scheme do not"));
   CHECK(folder.list().empty());
+}
+
+TEST_CASE("weights out of all proportion end in a message, and soon", "[tools][plugin]") {
+  const Folder folder;
+  const std::string huge = bad_plugin("huge"), model = data_file("whale.obj");
+  const std::string params = folder.write("params.csv", "0,0,0.3,0.3\n5,0,0.1,0.2\n"), rays = data_file("rays.csv");
+  const auto before = folder.list();
+  for (const char* weights : {"1e300 0", "1e300 1e300", "1 1e20", "1e8 0", "1 0.5", "0.3 0.5", "-1e300 1e300",
+                              "1e8 -1e8", "0.5 0.5 1e100", "0.5 0.5 1e300"}) {
+    const Fault fault(weights);
+    CAPTURE(weights);
+    for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
+             {"render", model, "--plugin", huge, "-o", folder / "out.exr", "--size", "16x16"},
+             {"query", model, "--plugin", huge, "--rays", rays, "-o", folder / "out.csv"}}) {
+      const Outcome outcome = folder.run(line);
+      CAPTURE(line, outcome.text);
+      CHECK(outcome.status == 3);
+      CHECK(holds(outcome.text, "masks of the scheme do not"));
+    }
+    CHECK(folder.list() == before);
+    CHECK(folder.run({"info", model, "--plugin", huge}).status == 0);
+    const Outcome check = folder.run({"scheme", "check", "--plugin", huge, "--valence", "8"});
+    CAPTURE(check.text);
+    CHECK(check.status == 1);
+  }
+  // A vertex whose weights do not sum to one runs away, or into the origin.
+  const Fault fault("1e300 0");
+  const Outcome eval = folder.run({"eval", model, "--plugin", huge, "--params", params, "-o", folder / "out.csv"});
+  CAPTURE(eval.text);
+  CHECK(eval.status == 3);
+  const Outcome check = folder.run({"scheme", "check", "--plugin", huge, "--valence", "8"});
+  CHECK(holds(check.text, "a constant control net does not stay constant"));
 }
 
 TEST_CASE("the default camera frames the surface of a plug-in", "[tools][plugin]") {

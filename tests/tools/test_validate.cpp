@@ -92,6 +92,22 @@ TEST_CASE("validate passes on sound models", "[tools][validate]") {
   }
 }
 
+TEST_CASE("validate holds conical vertices against plain refinement", "[tools][validate]") {
+  const Folder folder;
+  const std::string octahedron =
+      "v 0 0 1\nv 1.1 0 0\nv 0 1 0.1\nv -1 0.1 0\nv 0 -1 0\nv 0 0.1 -1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 6 3 2\n"
+      "f 6 4 3\nf 6 5 4\nf 6 2 5\nt cone 2/0/0 0 5\n";
+  const std::string model = folder.write("cone.obj", octahedron);
+  const std::string smooth = folder.write("smooth.obj", octahedron + "t smoothtriangles 0/0/1 smooth\n");
+  for (const auto& [file, scheme] : {std::pair(model, "loop"), std::pair(model, "catmark"),
+                                     std::pair(smooth, "catmark"), std::pair(model, "bilinear")}) {
+    const Outcome outcome = folder.run({"validate", file, "--scheme", scheme, "--evaluations", "60", "--rays", "60"});
+    CAPTURE(file, scheme, outcome.text);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.text.find("plain refinement by the masks (good to 1e-13") != std::string::npos);
+  }
+}
+
 TEST_CASE("validate at full size", "[tools][validate][sweep]") {
   for (const std::string model : models) {
     INFO(model);

@@ -59,8 +59,12 @@ class CsvReader {
     }
     const bool may_be_header = std::exchange(is_first_, false) && !fields_[0].empty() && !to_number(fields_[0]);
     if (may_be_header && std::none_of(fields_.begin(), fields_.end(), to_number)) {
-      table_.set_header({fields_.begin(), fields_.end()});
+      table_.set_header({fields_.begin(), fields_.end()}, line_);
       return;
+    }
+    if (!table_.header().empty() && fields_.size() != table_.header().size()) {
+      fail("a row with " + std::to_string(fields_.size()) + " columns, expected " +
+           std::to_string(table_.header().size()) + " as in the header");
     }
     values_.clear();
     for (const std::string_view field : fields_) {

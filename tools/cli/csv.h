@@ -27,6 +27,7 @@ class CsvTable {
   }
   int line(std::size_t row) const { return lines_[row]; }
   const std::vector<std::string>& header() const { return header_; }  ///< empty if the file has none
+  int header_line() const { return header_line_; }
 
   /// A number that must be an integer in the range of int. Throws InputError with file and line if it is not.
   int integer(std::size_t row, std::size_t column) const;
@@ -34,20 +35,22 @@ class CsvTable {
   /// Throws InputError with the file and the row's line.
   [[noreturn]] void fail(std::size_t row, const std::string& message) const;
 
-  void set_header(std::vector<std::string> names) { header_ = std::move(names); }
+  void set_header(std::vector<std::string> names, int line) { header_ = std::move(names), header_line_ = line; }
   void add_row(std::span<const double> values, int line);
 
  private:
   std::string file_;
   std::vector<std::string> header_;
+  int header_line_ = 0;
   std::vector<double> values_;
   std::vector<std::size_t> offsets_{0};
   std::vector<int> lines_;
 };
 
 /// Reads a file of rows with any of the given numbers of columns. The first row is a header if its first field is not
-/// a number; then none of its fields may be one, so that a spoilt first row is not taken for a header. Blank lines,
-/// CR before LF and blanks around fields are skipped; '#' and '"' have no meaning; "inf" and "nan" are numbers.
+/// a number; then none of its fields may be one, so that a spoilt first row is not taken for a header, and every row
+/// must be as long as it is. Blank lines, CR before LF and blanks around fields are skipped; '#' and '"' have no
+/// meaning; "inf" and "nan" are numbers.
 /// Throws InputError with file and line for a row of another length or a field that is no number. O(file size).
 CsvTable read_csv(const std::filesystem::path& file, std::initializer_list<std::size_t> column_counts);
 

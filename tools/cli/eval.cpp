@@ -4,7 +4,8 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/cli/csv.h"
+#include "tools/cli/csv_vector.h"
+#include "tools/cli/distinct_files.h"
 #include "tools/cli/row_batch.h"
 #include "tools/cli/threads.h"
 
@@ -26,19 +27,15 @@ SurfaceParameter to_parameter(const CsvTable& table, std::size_t row) {
   return at;
 }
 
-void write_vector(CsvWriter& writer, const Vec3& vector) {
-  for (int axis = 0; axis < 3; ++axis) writer.field(vector[axis]);
-}
-
 void write_sample(CsvWriter& writer, const LimitSample& sample) {
   write_vector(writer, sample.position);
-  write_vector(writer, sample.normal);
+  write_normal(writer, sample.normal);
   if (!sample.derivatives) {
     writer.empty(derivative_columns);
     return;
   }
   const Derivatives& d = *sample.derivatives;
-  for (const Vec3& derivative : {d.du, d.dv, d.duu, d.duv, d.dvv}) write_vector(writer, derivative);
+  for (const Vec3& derivative : {d.du, d.dv, d.duu, d.duv, d.dvv}) write_derivative(writer, derivative);
 }
 
 void write_row(CsvWriter& writer, const SurfaceParameter& at, const std::optional<LimitSample>& sample) {
@@ -86,11 +83,17 @@ void add_eval(CLI::App& app, Command& command) {
   sub->add_option("-o,--output", options->output,
                   "CSV file with one row per parameter, in order: face,sub,u,v, the position px,py,pz, the unit normal "
                   "nx,ny,nz, and the derivatives du, dv, duu, duv, dvv (dux,duy,duz,...). The derivatives are empty at "
-                  "irregular vertices; everything after v is empty on faces without a limit surface")
+                  "irregular vertices and of schemes without polynomials, the normal where the surface has none (on a "
+                  "face that is a segment or a point); everything after v is empty on faces without a limit surface")
       ->required()
       ->type_name("FILE");
   add_threads_option(*sub, options->threads);
-  sub->callback([options, &command] { command = [options] { return eval(*options); }; });
+  sub->callback([options, &command] {
+    std::vector<NamedFile> inputs = inputs_of(options->model);
+    inputs.push_back({"--params", options->parameters});
+    expect_distinct_files({{"--output", options->output}}, inputs);
+    command = [options] { return eval(*options); };
+  });
 }
 
 }  // namespace shaolin

@@ -26,6 +26,10 @@ FaceKind face_kind_of(const std::string& scheme, const MeshPlaces& places) {
 
 }  // namespace
 
+std::vector<NamedFile> inputs_of(const ModelOptions& options) {
+  return {{"MODEL", options.file}, {"--plugin", options.plugin}};
+}
+
 CLI::Validator is_scheme_name() {
   std::vector<std::string> names;
   for (const BuiltinScheme& scheme : builtin_schemes()) names.emplace_back(scheme.name);

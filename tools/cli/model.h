@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "intersect/scene.h"
 #include "schemes/control_mesh.h"
 #include "schemes/limit_surface.h"
 #include "schemes/runtime_scheme.h"
+#include "tools/cli/distinct_files.h"
 
 namespace shaolin {
 
@@ -18,6 +20,9 @@ struct ModelOptions {
   std::string scheme;            ///< a built-in scheme; empty: what the mesh asks for, see default_scheme()
   std::filesystem::path plugin;  ///< a shared library with a scheme, see load_plugin(); empty: none
 };
+
+/// The files that it names, for expect_distinct_files().
+std::vector<NamedFile> inputs_of(const ModelOptions& options);
 
 /// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces, with
 /// --min-size and --max-size.

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "tools/cli/csv.h"
+#include "tools/cli/csv_vector.h"
+#include "tools/cli/distinct_files.h"
 #include "tools/cli/row_batch.h"
 #include "tools/cli/stage.h"
 #include "tools/cli/threads.h"
@@ -50,8 +51,8 @@ class HitWriter {
     if (!hit) return write(ray, false);
     writer_.field(static_cast<long long>(ray)).field(1);
     writer_.field(hit->t).field(hit->at.face).field(hit->at.sub).field(hit->at.u).field(hit->at.v);
-    for (const Vec3& vector : {hit->sample.position, hit->sample.normal})
-      for (int axis = 0; axis < 3; ++axis) writer_.field(vector[axis]);
+    write_vector(writer_, hit->sample.position);
+    write_normal(writer_, hit->sample.normal);
     if (instances_) writer_.field(hit->instance);
     writer_.end_row();
   }
@@ -108,7 +109,8 @@ void add_query(CLI::App& app, Command& command) {
   sub->add_option(
          "-o,--output", options->hits,
          "CSV file with one row per ray, in order: ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz; on a miss, hit is "
-         "0 and the fields after it are empty. Of scenes with one more column, instance, which counts from 0 in the "
+         "0 and the fields after it are empty; the normal is empty where the surface has none. Of scenes with one more "
+         "column, instance, which counts from 0 in the "
          "file's order with groups dissolved")
       ->required()
       ->type_name("FILE");
@@ -116,7 +118,12 @@ void add_query(CLI::App& app, Command& command) {
                 "Ask only whether a ray hits anything, which is cheaper: the columns stay, all fields after hit are "
                 "empty, as no closest point is known");
   add_threads_option(*sub, options->threads);
-  sub->callback([options, &command] { command = [options] { return query(*options); }; });
+  sub->callback([options, &command] {
+    std::vector<NamedFile> inputs = inputs_of(options->model);
+    inputs.push_back({"--rays", options->rays});
+    expect_distinct_files({{"--output", options->hits}}, inputs);
+    command = [options] { return query(*options); };
+  });
 }
 
 }  // namespace shaolin

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "schemes/errors.h"
+#include "tools/cli/distinct_files.h"
 #include "tools/cli/exr.h"
 #include "tools/cli/image.h"
 #include "tools/cli/level_map.h"
@@ -219,7 +220,14 @@ void add_render(CLI::App& app, Command& command) {
   add_threads_option(*sub, options->threads);
   sub->add_option("--stats", options->stats, "JSON file with times, memory and counts of the work done")
       ->type_name("FILE");
-  sub->callback([options, &command] { command = [options] { return render(*options); }; });
+  sub->callback([options, &command] {
+    expect_distinct_files({{"--output", options->exr},
+                           {"--png", options->png},
+                           {"--png-level", options->level_png},
+                           {"--stats", options->stats}},
+                          inputs_of(options->model));
+    command = [options] { return render(*options); };
+  });
 }
 
 }  // namespace shaolin

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "intersect/face_bounds.h"
@@ -67,21 +68,31 @@ class Kit {
   }
 
   ConformanceReport run() {
-    weights();
-    affine_invariance();
-    symmetry();
-    creases();
-    spectra();
-    characteristic_maps();
-    limit_masks();
-    regular_basis();
-    bounds();
-    continuity();
-    extremes();
+    weights();  // asks for every mask, so that one which cannot be had is an error
+    attempt("affine invariance", &Kit::affine_invariance);
+    attempt("symmetry", &Kit::symmetry);
+    attempt("creases", &Kit::creases);
+    attempt("spectra", &Kit::spectra);
+    attempt("characteristic maps", &Kit::characteristic_maps);
+    attempt("limit masks", &Kit::limit_masks);
+    attempt("regular basis", &Kit::regular_basis);
+    attempt("bounds", &Kit::bounds);
+    attempt("continuity", &Kit::continuity);
+    attempt("degenerate and extreme nets", &Kit::extremes);
     return std::move(report_);
   }
 
  private:
+  /// Where there is no surface to look at, that is the check's failure.
+  void attempt(const std::string& name, void (Kit::*check)()) {
+    try {
+      (this->*check)();
+    } catch (const InputError& error) {
+      report_.checks.push_back(
+          {name, "there is no surface", std::numeric_limits<double>::infinity(), 0, Verdict::fail, error.what()});
+    }
+  }
+
   /// The mesh of a star.
   struct Star {
     Star(const S& scheme, StarKind star, int faces) : control(vertex_star(kind, star, faces)), mesh(control, scheme) {}

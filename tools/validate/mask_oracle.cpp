@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "tools/validate/agreement.h"
 #include "tools/validate/mask_refinement.h"
@@ -21,6 +22,32 @@ constexpr int most_levels = 400;
 /// A normal has settled if it has turned by no more over the last so many levels: a fifth of bar::normal.
 constexpr int settling_levels = 8;
 constexpr double settled = bar::normal / 5;
+
+/// Normals of faces around a point turn by half as much a level, so that so many settle them. Not before the face has
+/// left the corner that it began at, though: around a cone or a spike the normal depends on the side that the point
+/// lies on, and a face that still holds the corner knows nothing of it.
+constexpr int smooth_levels = 40;
+
+/// Where a parameter stands to the nearest corner of its face.
+struct FromCorner {
+  int corner;
+  double distance;
+
+  int levels_to_settle() const {
+    return distance > 0 ? smooth_levels + std::max(0, -std::ilogb(distance)) : settling_levels;
+  }
+};
+
+FromCorner from_corner(bool triangular, double u, double v) {
+  constexpr double corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, triangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  FromCorner nearest{0, std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < (triangular ? 3 : 4); ++k) {
+    const double* const corner = triangular ? triangle[k] : corners[k];
+    const double distance = std::max(std::abs(u - corner[0]), std::abs(v - corner[1]));
+    if (distance < nearest.distance) nearest = {k, distance};
+  }
+  return nearest;
+}
 
 RootMesh root_of(const ControlMesh& mesh, const SchemeMasks& masks) {
   const bool triangular = masks.face_kind() == FaceKind::triangle;
@@ -49,15 +76,19 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
   CutOut cut = cut_neighbourhood(root_.mesh, place.face, rings);
   int face = cut.face_index.at(place.face);
   Vec3 origin = Vec3::Zero();
+  const FromCorner from = from_corner(triangular(), u, v);
+  const int start = root_.mesh.face_vertices[place.face][static_cast<std::size_t>(from.corner)];
+  const bool is_apex = from.distance == 0 && root_.mesh.vertex_cone[static_cast<std::size_t>(start)];
   std::deque<Vec3> normals;
-  for (int level = 0; level < most_levels; ++level) {
+  int level = 0;
+  for (; level < most_levels; ++level) {
     origin += cut.mesh.recentre(cut.mesh.face_vertices[face][0]);
     double size = 0;
     for (const int vertex : cut.mesh.face_vertices[face])
       size = std::max(size, cut.mesh.points[static_cast<std::size_t>(vertex)].norm());
     normals.push_back(normal_of(cut.mesh, face));
     if (static_cast<int>(normals.size()) > settling_levels) normals.pop_front();
-    if (size <= 0x1p-54 * diagonal() && level >= settling_levels) break;
+    if (size <= 0x1p-54 * diagonal() && level >= from.levels_to_settle()) break;
     const Refined fine = refine(cut.mesh, root_.rules, *masks_);
     const ChildPlace in = child_place(triangular(), u, v);
     u = in.u, v = in.v;
@@ -65,7 +96,8 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
     cut = cut_neighbourhood(fine.mesh, child, rings);
     face = cut.face_index.at(child);
   }
-  const bool has_settled = angle_between_units(normals.front(), normals.back()) <= settled;
+  const bool has_settled =
+      !is_apex && level < most_levels && angle_between_units(normals.front(), normals.back()) <= settled;
   return LimitSample{origin, has_settled ? normals.back() : Vec3::Zero(), std::nullopt};
 }
 

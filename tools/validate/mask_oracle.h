@@ -13,13 +13,12 @@ namespace shaolin {
 /// wrong.
 class MaskOracle final : public Oracle {
  public:
-  /// Throws InputError for triangle masks over other faces, for conical vertices and for meshes that OpenSubdiv
-  /// declines. O(mesh size).
+  /// Throws InputError for triangle masks over other faces and for meshes that OpenSubdiv declines. O(mesh size).
   MaskOracle(const ControlMesh& mesh, std::shared_ptr<const SchemeMasks> masks);
 
   bool has_derivatives() const override { return false; }
-  /// The normal is that of the last faces around the parameter, zero if they have not settled.
-  /// O(log2(1 / rounding) x faces within three rings); more where a surface shrinks by less than half a level.
+  /// The normal is that of the last faces around the parameter, zero if they have not settled, and at the apex of a
+  /// cone. O(log2(1 / rounding) x faces within three rings); more where a surface shrinks by less than half a level.
   std::optional<LimitSample> evaluate(const SurfaceParameter& at) const override;
 
  private:

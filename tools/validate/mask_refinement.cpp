@@ -18,7 +18,12 @@ struct Sum {
 class MaskStep {
  public:
   MaskStep(const TaggedMesh& coarse, Refined& fine, const SubdivisionRules& rules, const SchemeMasks& masks)
-      : coarse_(coarse), fine_(fine), masks_(masks), triangular_(rules.triangular()), by_rings_(masks.radius() == 2) {}
+      : coarse_(coarse),
+        fine_(fine),
+        masks_(masks),
+        triangular_(rules.triangular()),
+        smooth_triangles_(rules.options.GetTriangleSubdivision() == OpenSubdiv::Sdc::Options::TRI_SUB_SMOOTH),
+        by_rings_(masks.radius() == 2) {}
 
   void run();
 
@@ -63,6 +68,7 @@ class MaskStep {
   Vec3 diagonal(int face, int corner) const;
   Fan fan(int face, int corner) const;
   Vec3 by_ring_mask(const Fan& fan, const RingMask& mask) const;
+  EdgeMask edge_mask(int edge) const;
 
   Vec3 face_point(int face) const;
   Vec3 edge_point(int edge) const;
@@ -73,7 +79,7 @@ class MaskStep {
   const TaggedMesh& coarse_;
   Refined& fine_;
   const SchemeMasks& masks_;
-  bool triangular_, by_rings_;
+  bool triangular_, smooth_triangles_, by_rings_;
   std::vector<Vec3> face_points_;
 };
 
@@ -191,6 +197,14 @@ Vec3 MaskStep::face_point(int face) const {
   return sum;
 }
 
+EdgeMask MaskStep::edge_mask(int edge) const {
+  const auto faces = coarse_.edge_faces[edge];
+  const auto triangles =
+      std::count_if(faces.begin(), faces.end(), [&](int face) { return coarse_.face_vertices.count(face) == 3; });
+  const bool beside_triangles = !triangular_ && smooth_triangles_ && triangles > 0;
+  return beside_triangles ? masks_.triangle_edge(static_cast<int>(triangles)) : masks_.smooth_edge();
+}
+
 Vec3 MaskStep::smooth_edge_point(int edge) const {
   const auto ends = coarse_.edge_vertices[at(edge)];
   const Vec3 middle = (point(ends[0]) + point(ends[1])) / 2;
@@ -200,7 +214,7 @@ Vec3 MaskStep::smooth_edge_point(int edge) const {
     Vec3 sides = Vec3::Zero();
     for (std::size_t i = 0; i < 2; ++i)
       sides += triangular_ ? point(coarse_.previous_vertex(faces[i], corners[i])) : face_points_[at(faces[i])];
-    const EdgeMask mask = masks_.smooth_edge();
+    const EdgeMask mask = edge_mask(edge);
     return mask.end * 2 * middle + mask.side * sides;
   }
   std::vector<Fan> fans;  // of either end, each seen from the face that the edge leads there
@@ -232,7 +246,9 @@ Vec3 MaskStep::vertex_point_by(long rule, const Tags& tags, bool is_dart, int ve
     return sum.value;
   }
   const int n = static_cast<int>(edges.size());
-  const VertexMask mask = is_dart ? masks_.dart_vertex(n) : masks_.smooth_vertex(n);
+  const VertexMask mask = is_dart                           ? masks_.dart_vertex(n)
+                          : coarse_.vertex_cone[at(vertex)] ? masks_.cone_vertex(n)
+                                                            : masks_.smooth_vertex(n);
   sum.add(mask.vertex, point(vertex));
   for (const int edge : edges) sum.add(mask.edge, point(other_end(edge, vertex)));
   if (mask.face != 0)

@@ -23,6 +23,7 @@ const std::map<std::string, Sdc::SchemeType> schemes{
     {"loop", Sdc::SCHEME_LOOP}, {"catmark", Sdc::SCHEME_CATMARK}, {"bilinear", Sdc::SCHEME_BILINEAR}};
 
 RootMesh root_of(const ControlMesh& mesh, const std::string& scheme) {
+  if (!mesh.cones.empty()) throw InputError("OpenSubdiv has no conical vertices to hold the surface against");
   const SubdivisionRules rules = rules_of(mesh, scheme_type(scheme));
   return {mesh, rules, [&](const TaggedMesh& coarse) { return refine(coarse, rules); }};
 }

@@ -29,7 +29,7 @@ OpenSubdiv::Sdc::SchemeType scheme_type(const std::string& scheme);
 class OpenSubdivOracle final : public Oracle {
  public:
   /// `scheme` is "loop", "catmark" or "bilinear". Throws InputError for another name, for Loop over other faces than
-  /// triangles and for meshes that OpenSubdiv declines. O(mesh size).
+  /// triangles, for conical vertices and for meshes that OpenSubdiv declines. O(mesh size).
   OpenSubdivOracle(const ControlMesh& mesh, const std::string& scheme, const OracleOptions& options = {});
   ~OpenSubdivOracle() override;
 

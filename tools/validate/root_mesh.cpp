@@ -49,7 +49,6 @@ std::unique_ptr<Far::TopologyRefiner> control_refiner(const ControlMesh& mesh, S
 }
 
 SubdivisionRules rules_of(const ControlMesh& mesh, Sdc::SchemeType scheme) {
-  if (!mesh.cones.empty()) throw InputError("OpenSubdiv has no conical vertices to hold the surface against");
   SubdivisionRules rules{scheme, {}};
   rules.options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_ONLY);
   rules.options.SetCreasingMethod(mesh.crease_method == CreaseMethod::chaikin ? Sdc::Options::CREASE_CHAIKIN
@@ -75,6 +74,7 @@ RootMesh::RootMesh(const ControlMesh& control, const SubdivisionRules& its_rules
     all_regular = all_regular && regular;
   }
   mesh = tagged_level(refiner->GetLevel(0), control.positions);
+  for (const int vertex : control.cones) mesh.vertex_cone[vertex] = 1;
   face_has_limit = has_limit;
   if (all_regular) return;
   Refined fine = refine(mesh);

@@ -9,7 +9,7 @@
 
 namespace shaolin {
 
-/// The options of a mesh in OpenSubdiv's terms. Throws InputError for conical vertices, which OpenSubdiv has not.
+/// The options of a mesh in OpenSubdiv's terms.
 SubdivisionRules rules_of(const ControlMesh& mesh, OpenSubdiv::Sdc::SchemeType scheme);
 
 /// OpenSubdiv's refiner over a control mesh, with its boundary option and holes. Throws InputError for the triangle

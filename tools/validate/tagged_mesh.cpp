@@ -151,6 +151,7 @@ class Cutter {
     to_.mesh.points.push_back(from_.points[v]);
     to_.mesh.vertex_sharpness.push_back(from_.vertex_sharpness[v]);
     to_.mesh.vertex_non_manifold.push_back(non_manifold);
+    to_.mesh.vertex_cone.push_back(from_.vertex_cone[v]);
   }
 
   /// Sorts what is left around a vertex counter-clockwise from the boundary edge; false if it is not a single fan.
@@ -289,6 +290,7 @@ TaggedMesh tagged_level(const Far::TopologyLevel& level, std::vector<Vec3> point
     mesh.vertex_edge_slots.append(level.GetVertexEdgeLocalIndices(v));
     mesh.vertex_sharpness.push_back(level.GetVertexSharpness(v));
     mesh.vertex_non_manifold.push_back(level.IsVertexNonManifold(v));
+    mesh.vertex_cone.push_back(0);
   }
   return mesh;
 }
@@ -301,7 +303,11 @@ Refined refine(const TaggedMesh& mesh, const SubdivisionRules& rules) {
   Refined result;
   result.mesh = tagged_level(refiner->GetLevel(1), refined_points(*refiner, mesh));
   const Far::TopologyLevel& base = refiner->GetLevel(0);
-  for (int v = 0; v < mesh.vertex_count(); ++v) result.vertex_child.push_back(base.GetVertexChildVertex(v));
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const int child = base.GetVertexChildVertex(v);
+    result.vertex_child.push_back(child);
+    if (child >= 0) result.mesh.vertex_cone[child] = mesh.vertex_cone[v];
+  }
   for (int f = 0; f < mesh.face_count(); ++f) result.face_children.append(base.GetFaceChildFaces(f));
   return result;
 }

@@ -56,6 +56,7 @@ struct TaggedMesh {
   Relation vertex_faces, vertex_face_slots, vertex_edges, vertex_edge_slots;
   std::vector<float> edge_sharpness, vertex_sharpness;
   std::vector<char> edge_non_manifold, vertex_non_manifold;
+  std::vector<char> vertex_cone;  ///< ours, see ControlMesh::cones: OpenSubdiv's refinement carries it, and no more
 
   int vertex_count() const { return static_cast<int>(points.size()); }
   int edge_count() const { return static_cast<int>(edge_vertices.size()); }
@@ -93,7 +94,7 @@ CutOut cut_neighbourhood(const TaggedMesh& mesh, int face, int rings);
 /// OpenSubdiv's refiner with this mesh as its base level. Throws std::runtime_error if OpenSubdiv declines the mesh.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const TaggedMesh& mesh, const SubdivisionRules& rules);
 
-/// The topology and the sharpness of one of OpenSubdiv's levels.
+/// The topology and the sharpness of one of OpenSubdiv's levels; no vertex is conical.
 TaggedMesh tagged_level(const OpenSubdiv::Far::TopologyLevel& level, std::vector<Vec3> points);
 
 /// A mesh after one uniform step, with OpenSubdiv's child indices. The children of a regular face keep its frame:
