@@ -15,12 +15,14 @@ constexpr double gloss_exponent = 48;
 
 }  // namespace
 
+PointLight key_light(const View& view) {
+  const double distance = (view.camera().target - view.camera().eye).norm();
+  return {view.camera().eye + distance * (0.75 * view.up() - 0.6 * view.right()), key_color};
+}
+
 Shader::Shader(const Scene& scene, const View& view, Look look)
     : scene_(scene), look_(std::move(look)), up_(view.up()) {
-  if (look_.lights.empty()) {
-    const double distance = (view.camera().target - view.camera().eye).norm();
-    look_.lights.push_back({view.camera().eye + distance * (0.75 * view.up() - 0.6 * view.right()), key_color});
-  }
+  if (look_.lights.empty()) look_.lights.push_back(key_light(view));
   const Box bounds = scene.bounds();
   // Far above the rounding of a hit's position, far below what a pixel shows.
   offset_ = 1e-6 * (bounds.upper - bounds.lower).norm();
