@@ -47,7 +47,7 @@ void add_measure_options(CLI::App& app, MeasureOptions& options, int& most_level
 void add_chord_options(CLI::App& app, std::optional<double>& unit, double& min_size, std::optional<double>& max_size) {
   app.add_option("--unit", unit,
                  "The length that an epsilon of 1 stands for (default: the paper's scenes have their own, see "
-                 "docs/bench.md; else a twentieth of the diagonal)")
+                 "docs/bench.md; else a fiftieth of the diagonal)")
       ->check(positive());
   app.add_option("--min-size", min_size, "Pixels: what is smaller is not refined")
       ->check(CLI::Range(0.0, 1e6))

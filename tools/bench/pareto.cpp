@@ -86,7 +86,7 @@ void write_pareto_page(std::ostream& out, const ParetoOptions& options, const Su
 
 double unit_of(const ModelOptions& model, double diagonal) {
   const PaperScene* const scene = paper_scene_of(model);
-  return scene != nullptr ? scene->unit : diagonal / 20;
+  return scene != nullptr ? scene->unit : diagonal / 50;
 }
 
 double max_size_of(const ModelOptions& model) {

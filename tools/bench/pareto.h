@@ -20,7 +20,7 @@ struct ParetoOptions {
 };
 
 /// What epsilon is measured by where nobody says: a scene of the paper's has its own unit (paper_figures.h); of any
-/// other it is a twentieth of the diagonal of its box, which lies among those.
+/// other it is a fiftieth of the diagonal of its box, which is Frogship's.
 double unit_of(const ModelOptions& model, double diagonal);
 double max_size_of(const ModelOptions& model);
 
