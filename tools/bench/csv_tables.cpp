@@ -44,14 +44,14 @@ void write_level_table(const std::filesystem::path& file, const std::vector<Name
 }
 
 void write_time_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
-  write_table(file, "runs,seconds,seconds_least,seconds_most,bytes,estimated,occluded_differs", scenes,
+  write_table(file, "runs,seconds,seconds_least,seconds_most,again,bytes,estimated,occluded_differs", scenes,
               [](CsvWriter& writer, const Measurement& one) {
                 count(writer, one.seconds.size());
                 const Spread seconds = spread(one.seconds);
                 if (one.seconds.empty())
-                  writer.empty(3);
+                  writer.empty(4);
                 else
-                  writer.field(seconds.median).field(seconds.least).field(seconds.most);
+                  writer.field(seconds.median).field(seconds.least).field(seconds.most).field(spread(one.again).median);
                 count(writer, one.bytes).field(one.estimated ? 1 : 0);
                 count(writer, one.occluded_differs);
               });

@@ -27,6 +27,7 @@ struct Measurement {
   std::size_t occluded_differs = 0;  ///< shadow rays that occluded() answers otherwise than intersect() does
   std::string fault{};               ///< why its answers are no picture of the scene, so that it is not timed; or empty
   std::vector<double> seconds{};     ///< of each run, from meshes in memory to the last answer, cold, on one thread
+  std::vector<double> again{};       ///< of each run: the same rays once more, with all that the first time made
   std::size_t bytes = 0;             ///< after all rays
   bool estimated = false;            ///< not run: bytes are four times those of the level before
 

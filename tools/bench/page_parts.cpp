@@ -6,7 +6,8 @@
 namespace shaolin {
 
 const char* const error_rows_note =
-    "Errors are held against the exact method over all primary and shadow rays where both hit: the distance along the "
+    "Again: the same rays once more, when patches or triangles are there. Errors are held against the exact method "
+    "over all primary and shadow rays where both hit: the distance along the "
     "ray between the hits, in the scene's unit of length, and the angle between the normals. Lost: only the exact "
     "method hits; ghosts: only the other does. Farther and nearer: both hit, further apart than the band is wide. "
     "Outside: those of them that no exact ray explains that runs beside this one, within the band's width of 4/3 "
@@ -52,7 +53,8 @@ PlotSeries time_line(const Measurement& measurement, const std::string& label) {
 }
 
 void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements) {
-  out << "<table><tr><th>method<th class=n>time s<th class=n>memory<th class=n>distance: median<th class=n>99 %<th "
+  out << "<table><tr><th>method<th class=n>time s<th class=n>again s<th class=n>memory<th class=n>distance: median<th "
+         "class=n>99 %<th "
          "class=n>max<th class=n>normal rad: median<th class=n>99 %<th class=n>max<th class=n>lost<th "
          "class=n>ghosts<th "
          "class=n>farther<th class=n>nearer<th class=n>outside: lost<th class=n>ghosts</tr>\n";
@@ -60,10 +62,11 @@ void write_error_rows(std::ostream& out, const std::vector<Measurement>& measure
   for (const Measurement& one : measurements) {
     out << "<tr><td>" << one.contender.name();
     if (one.estimated) {
-      out << "<td class=n>not run<td class=n>about " << megabytes(one.bytes) << "<td colspan=12></tr>\n";
+      out << "<td class=n>not run<td><td class=n>about " << megabytes(one.bytes) << "<td colspan=12></tr>\n";
       continue;
     }
     cell(one.seconds.empty() ? "not timed" : to_text(spread(one.seconds)));
+    cell(one.again.empty() ? "" : digits(spread(one.again).median));
     cell(megabytes(one.bytes));
     for (const Quantiles* const of : {&one.errors.distance, &one.errors.normal})
       for (const double value : {of->median, of->p99, of->max}) cell(digits(value, 2));

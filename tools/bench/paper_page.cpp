@@ -140,47 +140,56 @@ void write_time_words(std::ostream& out, const PaperResult& result) {
          "paper's are of whole pictures on a Pentium 4, so that only ratios compare.</p>\n";
 }
 
+/// Of Table 4: uniform levels 3 to 7.
+constexpr std::size_t memory_levels = 5;
+
 void write_memory_row(std::ostream& out, const std::string& name, const MemoryFigures& figures) {
   out << "<tr><td>" << name << "<td class=n>" << megabytes(figures.shaolin) << "<td class=n>" << megabytes(figures.a3);
-  for (const MemoryFigures::Uniform& uniform : figures.uniform)
-    out << "<td class=n>" << (uniform.estimated ? "about " : "") << megabytes(uniform.bytes);
+  for (std::size_t i = 0; i < memory_levels; ++i) {
+    out << "<td class=n>";
+    if (i < figures.uniform.size())
+      out << (figures.uniform[i].estimated ? "about " : "") << megabytes(figures.uniform[i].bytes);
+  }
   out << "</tr>\n";
+}
+
+void write_paper_memory_row(std::ostream& out, const PaperScene& scene) {
+  out << "<tr><td class=paper>" << html_escaped(scene.title) << ", paper<td class='n paper'>" << scene.shaolin_mb
+      << " MB<td class='n paper'>the same";
+  for (const auto& printed : scene.uniform_mb)
+    out << "<td class='n paper'>" << (printed ? std::to_string(*printed) + " MB" : "&ndash;");
+  out << "</tr>\n";
+}
+
+/// "below level 5": the first uniform level that takes more.
+std::string place_among_levels(const MemoryFigures& figures) {
+  std::size_t level = 0;
+  while (level < figures.uniform.size() && figures.uniform[level].bytes <= figures.shaolin) ++level;
+  return level < figures.uniform.size() ? "below level " + std::to_string(level + 3) : "above all levels measured";
 }
 
 void write_memory(std::ostream& out, const std::vector<PaperResult>& results) {
   out << "<h2>Table 4: memory</h2>\n<table><tr><th><th class=n>ShaoLin<th class=n>A3";
-  for (std::size_t i = 0; i < results.front().shared.uniform.size(); ++i) out << "<th class=n>uniform, level " << i + 3;
+  for (std::size_t i = 0; i < memory_levels; ++i) out << "<th class=n>uniform, level " << i + 3;
   out << "</tr>\n";
-  std::string below;
+  std::string places;
   for (const PaperResult& result : results) {
     const std::string title = html_escaped(result.scene->title);
     write_memory_row(out, title + ", a mesh for each instance", result.alone);
     write_memory_row(out, title + ", instances share", result.shared);
-    out << "<tr><td class=paper>" << title << ", paper<td class='n paper'>" << result.scene->shaolin_mb
-        << " MB<td class='n paper'>the same";
-    for (std::size_t i = 0; i < result.alone.uniform.size(); ++i) {
-      const auto& printed = result.scene->uniform_mb.at(i);
-      out << "<td class='n paper'>" << (printed ? std::to_string(*printed) + " MB" : "&ndash;");
-    }
-    out << "</tr>\n";
-    for (const MemoryFigures* const figures : {&result.alone, &result.shared}) {
-      std::size_t level = 0;
-      while (level < figures->uniform.size() && figures->uniform[level].bytes <= figures->shaolin) ++level;
-      below += (below.empty() ? "" : "; ") + title + (figures == &result.alone ? " alone" : " shared") + ": " +
-               (level < figures->uniform.size() ? "below level " + std::to_string(level + 3) : "above all of them");
-    }
+    write_paper_memory_row(out, *result.scene);
+    places += (places.empty() ? "" : "; ") + title + ": " + place_among_levels(result.alone) +
+              " with a mesh for each instance, " + place_among_levels(result.shared) + " where instances share";
   }
   out << "</table>\n<p>ShaoLin and A3 at &epsilon; = " << paper_epsilon
       << ". Bytes held by patches, or by triangles and their hierarchy, after all rays of a picture. 'About': not run, "
-         "four "
-         "times the level before. ShaoLin's memory against uniform levels: "
-      << below
+         "four times the level before. ShaoLin's memory lies among the uniform levels: "
+      << places
       << ". Where it agrees: memory of uniform triangles grows fourfold by level and with all faces, ShaoLin's with "
          "what "
-         "rays come near. Where it does not: the paper's machine had no room for what stands under 'a mesh for each "
-         "instance' here, and its program kept other things for a face than ours does, so only the order of the "
-         "columns "
-         "compares.</p>\n";
+         "rays come near. Where it does not: the paper's machine had no room for most of what stands under 'a mesh for "
+         "each instance' here, and its program kept other things for a face than ours does, so that the order of the "
+         "columns compares, and bytes do not.</p>\n";
 }
 
 void write_maps(std::ostream& out, const PaperResult& result) {

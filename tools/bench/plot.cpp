@@ -10,7 +10,7 @@
 namespace shaolin {
 namespace {
 
-constexpr double width = 760, height = 430, left = 74, right = 250, top = 14, bottom = 52;
+constexpr double width = 780, height = 430, left = 74, right = 270, top = 14, bottom = 52;
 constexpr double plot_right = width - right, plot_bottom = height - bottom;
 
 std::string number(double value) {
@@ -85,7 +85,9 @@ void write_series(std::ostream& out, const PlotSeries& series, const Axis& x, co
     const PlotPoint& point = series.points.front();
     write_line(out, left, y.at(point.y), plot_right, y.at(point.y), stroke + " stroke-width='1.4'");
     if (point.high > 0) write_line(out, plot_right - 4, y.at(point.low), plot_right - 4, y.at(point.high), stroke);
-    write_text(out, plot_right + 5, y.at(point.y) + 4, point.label, "fill='" + series.color + "'");
+    // Dashed lines' labels stand in a column of their own, as they run close to the others.
+    write_text(out, plot_right + (series.dashed ? 56 : 5), y.at(point.y) + 4, point.label,
+               "fill='" + series.color + "'");
     return;
   }
   out << "<polyline fill='none' stroke-width='1.8' " << stroke << " points='";
@@ -112,9 +114,9 @@ void write_legend(std::ostream& out, const Plot& plot) {
     if (std::find(named.begin(), named.end(), series.name) != named.end()) continue;
     const double y = top + 12 + 18 * static_cast<double>(named.size());
     named.push_back(series.name);
-    write_line(out, plot_right + 78, y - 4, plot_right + 104, y - 4,
+    write_line(out, plot_right + 108, y - 4, plot_right + 134, y - 4,
                "stroke-width='2' stroke='" + series.color + "'" + (series.dashed ? " stroke-dasharray='6 4'" : ""));
-    write_text(out, plot_right + 110, y, series.name);
+    write_text(out, plot_right + 140, y, series.name);
   }
 }
 
