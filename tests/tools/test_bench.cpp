@@ -1,5 +1,6 @@
 /// `bench`: what it measures by, and its three subcommands at small sizes.
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "tests/catch.h"
@@ -13,6 +14,7 @@
 #include "tools/bench/plot.h"
 #include "tools/bench/silhouette_band.h"
 #include "tools/cli/csv.h"
+#include "tools/validate/quad_oracle.h"
 
 namespace shaolin::test {
 namespace {
@@ -197,6 +199,46 @@ TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench
   CHECK(theirs.bytes() > 0);
 }
 
+// Regular patches, and rounded corners, n-gons, creases, darts and points near irregular vertices.
+TEST_CASE("Refinement in quadruple precision finds the limit", "[tools][bench]") {
+  Random random(11);
+  for (const std::string name : {"torus.obj", "ngon_body.obj", "cube_creases.obj", "dart.obj", "loop_torus.obj"}) {
+    const LoadedModel model = load_model({data_file(name), {}, {}});
+    const QuadOracle oracle(model.mesh, model.scheme);
+    const auto surface = make_limit_surface(model.mesh, model.scheme);
+    for (int i = 0; i < 12; ++i) {
+      const int face = random.index(surface->face_count()), sub = random.index(surface->sub_count(face));
+      const double u = random.uniform(0, i % 3 == 0 ? 1e-3 : 0.5), v = random.uniform(0, 0.5);
+      const SurfaceParameter at{face, sub, u, v};
+      const auto sample = surface->evaluate(at);
+      if (!sample) continue;
+      CAPTURE(name, face, sub, at.u, at.v);
+      const QuadVec3 difference = oracle.position(at) - sample->position.cast<Quad>();
+      CHECK(static_cast<double>(difference.norm()) < 1e-15 * oracle.diagonal());
+    }
+  }
+}
+
+// A pyramid of n faces around vertex 0 at z = 1, the rest at z = 0 but vertex 1 at z = 1: the limit weighs the vertex
+// 1 - n w and its neighbours w = 1 / (n + 3 / (8 beta)), which no double holds.
+TEST_CASE("Refinement in quadruple precision has more digits than double", "[tools][bench]") {
+  for (const int n : {5, 6}) {
+    std::vector<Vec3> points{{0, 0, 1}};
+    std::vector<std::vector<int>> faces;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      points.emplace_back(std::cos(angle), std::sin(angle), i == 0 ? 1 : 0);
+      faces.push_back({0, 1 + i, 1 + (i + 1) % n});
+    }
+    const QuadVec3 limit = QuadOracle(mesh_of(points, faces), "loop").position({0, 0, 0, 0});
+    const Quad cosine = n == 6 ? Quad(1) / 2 : (sqrt(Quad(5)) - 1) / 4;  // of 2 pi / n
+    const Quad root = Quad(3) / 8 + cosine / 4, beta = (Quad(5) / 8 - root * root) / n;
+    const Quad weight = 1 / (n + 3 / (8 * beta));
+    CAPTURE(n);
+    CHECK(static_cast<double>(abs(limit.z() - (1 - n * weight + weight))) < 1e-25);
+  }
+}
+
 TEST_CASE("A plot holds what is positive, and a legend", "[tools][bench]") {
   Plot plot{.x_label = "x < y", .y_label = "time"};
   plot.series.push_back({.name = "a", .color = "#111", .points = {{1, 2, 1, 3, "p"}, {0, 1}, {10, 20}}});
@@ -278,16 +320,22 @@ TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench
 TEST_CASE("bench pareto plots time over error", "[tools][cli][bench]") {
   const Folder folder;
   const Outcome outcome = folder.run({"bench", "pareto", data_file("torus.obj"), "--size", "40x40", "--runs", "1",
-                                      "--level", "4", "--report", folder / "out"});
+                                      "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
   CAPTURE(outcome.text);
   REQUIRE(outcome.status == 0);
   const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv");
   CHECK(errors.rows.size() == 1 + 2 * 9 + 2 * 4);
   check_errors(errors);
   CHECK(times.rows.size() == errors.rows.size());
-  const std::string page = read_file(folder / "out/pareto.html");
-  CHECK(page.find("99th percentile") != std::string::npos);
-  CHECK(page.find("error 0") != std::string::npos);
+  CHECK(read_file(folder / "out/pareto.html").find("99th percentile") != std::string::npos);
+
+  // The torus is 3 across.
+  const Table exact(folder / "out/exact.csv");
+  CHECK(exact.number(0, "hits") == 20);
+  for (const char* column : {"position_max", "across_max", "along_max"}) {
+    CHECK(exact.number(0, column) > 0);
+    CHECK(exact.number(0, column) < 1e-14);
+  }
 }
 
 TEST_CASE("bench lost counts its rays and finds none outside of the band", "[tools][cli][bench]") {

@@ -84,6 +84,10 @@ void add_pareto(CLI::App& app, Command& command) {
   add_size_option(*sub, options->size);
   add_report_option(*sub, options->report);
   add_chord_options(*sub, options->unit, options->min_size, options->max_size);
+  sub->add_option("--exact-hits", options->exact_hits,
+                  "Hits of the exact method that are held against the control mesh, refined in quadruple precision")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
+      ->capture_default_str();
   add_measure_options(*sub, options->measure, options->most_level, options->threads);
   sub->callback([options, &command] { command = [options] { return bench_pareto(*options); }; });
 }

@@ -15,6 +15,7 @@ struct ParetoOptions {
   double min_size = 2;             ///< --min-size
   std::optional<double> max_size;  ///< --max-size; a scene of the paper's: its own; else 12
   int most_level = 6;              ///< --level: of uniform triangles
+  std::size_t exact_hits = 200;    ///< --exact-hits: held against refinement in quadruple precision
   MeasureOptions measure;          ///< --runs, --memory
   int threads = 0;                 ///< --threads: of what is not timed
 };
@@ -24,7 +25,7 @@ struct ParetoOptions {
 double unit_of(const ModelOptions& model, double diagonal);
 double max_size_of(const ModelOptions& model);
 
-/// Measures, prints a line per method and the table, writes pareto.html, times.csv and errors.csv. Returns
+/// Measures, prints a line per method and the table, writes pareto.html, times.csv, errors.csv and exact.csv. Returns
 /// exit_check_failed if a method's answers are no picture of the scene. Throws InputError, std::exception.
 int bench_pareto(const ParetoOptions& options);
 
