@@ -17,6 +17,8 @@ EXECUTABLE = {"tools/build_preset", "tools/quickstart", "tools/test", "tools/set
 LONGEST_SOURCE = 500  # lines; CONTRIBUTING.md asks for about 400
 LARGEST_FILE = 512 * 1024
 LARGEST_MODEL = 60 * 1024
+LARGEST_PICTURE = 200 * 1024
+PICTURES = "docs/images/"  # the only files that are not text: PNG
 # Split, so that this file does not hold what it looks for.
 FORBIDDEN = {
     "an unfinished mark": re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b"),
@@ -43,9 +45,14 @@ def files():
 def faults_of(path):
     file = ROOT / path
     data = file.read_bytes()
-    limit = LARGEST_MODEL if path.startswith("data/") else LARGEST_FILE
+    is_picture = path.startswith(PICTURES)
+    limit = LARGEST_PICTURE if is_picture else LARGEST_MODEL if path.startswith("data/") else LARGEST_FILE
     if len(data) > limit:
         yield f"{path}: {len(data)} bytes, more than {limit}"
+    if is_picture:
+        if not data.startswith(b"\x89PNG\r\n"):
+            yield f"{path}: not a PNG file"
+        return
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:

@@ -1,13 +1,11 @@
 #pragma once
 /// The peer that we race: Embree 3, single-threaded.
-#include <embree3/rtcore.h>
-
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "intersect/ray.h"
 #include "schemes/control_mesh.h"
+#include "tools/bench/embree_parts.h"
 
 namespace shaolin {
 
@@ -29,12 +27,8 @@ class EmbreeScene {
   bool occluded(const Ray& ray) const;
 
  private:
-  struct Release {
-    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  };
-  std::unique_ptr<RTCDeviceTy, Release> device_;
-  std::unique_ptr<RTCSceneTy, Release> scene_;
+  EmbreeDevice device_;
+  EmbreeHandle<RTCSceneTy> scene_;
 };
 
 }  // namespace shaolin

@@ -102,13 +102,13 @@ std::vector<FarPoint> limit_points(const Far::TopologyRefiner& refiner, const Co
 
 }  // namespace
 
-Tessellation tessellate_loop(const ControlMesh& mesh, int level) {
+EmbreeTriangles tessellate_loop(const ControlMesh& mesh, int level) {
   const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(mesh);
   Far::TopologyRefiner::UniformOptions options(level);
   options.fullTopologyInLastLevel = true;  // the limit masks need it
   refiner->RefineUniform(options);
 
-  Tessellation result;
+  EmbreeTriangles result;
   for (const FarPoint& point : limit_points(*refiner, mesh)) result.points.push_back(point.xyz);
   const Far::TopologyLevel& finest = refiner->GetLevel(refiner->GetMaxLevel());
   result.triangles.reserve(static_cast<std::size_t>(finest.GetNumFaces()));

@@ -151,6 +151,13 @@ CsvWriter& CsvWriter::field(long long value) {
   return *this;
 }
 
+CsvWriter& CsvWriter::field(std::string_view name) {
+  assert(name.find_first_of(",\"\r\n") == std::string_view::npos);
+  begin_field();
+  buffer_ += name;
+  return *this;
+}
+
 CsvWriter& CsvWriter::empty(int count) {
   for (int i = 0; i < count; ++i) begin_field();
   return *this;

@@ -66,7 +66,8 @@ class CsvWriter {
   CsvWriter& field(double value);     ///< 17 significant digits, as printf's %.17g in the C locale
   CsvWriter& field(long long value);  ///< an integer
   CsvWriter& field(int value) { return field(static_cast<long long>(value)); }
-  CsvWriter& empty(int count = 1);  ///< fields without content
+  CsvWriter& field(std::string_view name);  ///< as it is: without commas, quotes and line ends
+  CsvWriter& empty(int count = 1);          ///< fields without content
 
   /// Ends the row, which must have as many fields as the header.
   void end_row();

@@ -22,8 +22,8 @@ struct LevelCounts {
   int deepest() const { return static_cast<int>(levels.size()) - 1; }
 };
 
-LevelCounts count_levels(const Image& image) {
-  LevelCounts counts;
+LevelCounts count_levels(const Image& image, int deepest) {
+  LevelCounts counts{.levels = std::vector<std::size_t>(static_cast<std::size_t>(deepest) + 1)};
   for (const Pixel& pixel : image.pixels) {
     if (!pixel.hit()) {
       ++counts.misses;
@@ -118,8 +118,8 @@ LinearColor level_color(int level, int deepest) {
   return linear_from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
 }
 
-Picture level_map(const Image& image, const View& view) {
-  const LevelCounts counts = count_levels(image);
+Picture level_map(const Image& image, const View& view, int deepest) {
+  const LevelCounts counts = count_levels(image, deepest);
   const Legend legend(legend_entries(counts), image.size.height);
   Picture picture(image.size.width + legend.width(), std::max(image.size.height, legend.height()), background);
   for (int y = 0; y < image.size.height; ++y) {

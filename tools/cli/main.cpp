@@ -5,6 +5,7 @@
 #include <new>
 
 #include "schemes/errors.h"
+#include "tools/bench/bench.h"
 #include "tools/cli/command.h"
 #include "tools/cli/eval.h"
 #include "tools/cli/info.h"
@@ -53,6 +54,7 @@ int parse_and_run(int argc, char** argv) {
   add_validate(app, command);
   add_scheme(app, command);
   add_peers(app, command);
+  add_bench(app, command);
 
   try {
     app.parse(argc, argv);

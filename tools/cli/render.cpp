@@ -1,81 +1,26 @@
 #include "tools/cli/render.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "schemes/errors.h"
 #include "tools/cli/distinct_files.h"
 #include "tools/cli/exr.h"
+#include "tools/cli/framing.h"
 #include "tools/cli/image.h"
 #include "tools/cli/level_map.h"
 #include "tools/cli/output_file.h"
+#include "tools/cli/parse_into.h"
 #include "tools/cli/png.h"
-#include "tools/cli/progress.h"
+#include "tools/cli/render_image.h"
 #include "tools/cli/render_stats.h"
-#include "tools/cli/shade.h"
 #include "tools/cli/stage.h"
 #include "tools/cli/threads.h"
 
 namespace shaolin {
 namespace {
-
-constexpr int tile_side = 32;
-
-std::array<float, 3> to_float(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-/// One sample, at the pixel's centre: the image depends on nothing else.
-Pixel render_pixel(const Scene& scene, const Shader& shader, const std::optional<Vec3>& background, const Ray& ray) {
-  Pixel pixel;
-  const std::optional<Hit> hit = scene.intersect(ray);
-  if (!hit) {
-    if (background) {
-      pixel.color = to_float(*background);
-      pixel.alpha = 1;
-    }
-    return pixel;
-  }
-  pixel.color = shader.shade(ray, *hit);
-  pixel.alpha = 1;
-  pixel.z = static_cast<float>(hit->t);
-  pixel.normal = to_float(hit->sample.normal);
-  pixel.position = to_float(hit->sample.position);
-  pixel.uv = {static_cast<float>(hit->at.u), static_cast<float>(hit->at.v)};
-  pixel.face = static_cast<std::uint32_t>(hit->at.face);
-  pixel.level = static_cast<std::uint32_t>(hit->level);
-  pixel.instance = static_cast<std::uint32_t>(hit->instance);
-  return pixel;
-}
-
-/// Renders in square tiles: neighbouring rays refine the same patches.
-Image render_image(const Scene& scene, const View& view, const Look& look, const SceneOptions& options) {
-  Image image(view.size());
-  const Shader shader(scene, view, look, options);
-  const int columns = (image.size.width + tile_side - 1) / tile_side;
-  const int rows = (image.size.height + tile_side - 1) / tile_side;
-  Progress progress(static_cast<std::size_t>(columns) * rows);
-  const auto render_tile = [&](int tile) {
-    const int left = tile % columns * tile_side, top = tile / columns * tile_side;
-    for (int y = top; y < std::min(top + tile_side, image.size.height); ++y)
-      for (int x = left; x < std::min(left + tile_side, image.size.width); ++x)
-        image.at(x, y) = render_pixel(scene, shader, look.background, view.ray(x, y));
-    progress.advance();
-  };
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, columns * rows, 1),
-      [&](const tbb::blocked_range<int>& tiles) {
-        for (int tile = tiles.begin(); tile != tiles.end(); ++tile) render_tile(tile);
-      },
-      tbb::simple_partitioner());
-  return image;
-}
 
 /// The files of one run: each is written under a temporary name, and all get their own names at the end. They are
 /// opened before the work starts, so that a folder that does not exist is not found out after it.
@@ -107,42 +52,6 @@ void print_summary(const RenderOptions& options, const RenderStats& stats) {
               stats.build_seconds, stats.render_seconds, stats.write_seconds);
 }
 
-/// An object's share of what a default camera frames. Its bounds hold for certain, which can make them several times as
-/// wide as the surface where masks have negative weights; the control points of its faces, with a quarter of their
-/// extent around for what such schemes overshoot, are not.
-Box frame_of(const Object& object) {
-  const LimitSurface& surface = object.surface();
-  const ControlMesh& mesh = surface.control_mesh();
-  Box control;
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    if (!surface.has_limit(f)) continue;
-    for (const int vertex : mesh.face(f)) control.add(mesh.positions[static_cast<std::size_t>(vertex)]);
-  }
-  const Box wide = control.expanded(0.25), bounds = object.bounds();
-  return {bounds.lower.cwiseMax(wide.lower), bounds.upper.cwiseMin(wide.upper)};
-}
-
-Box frame_of(const Scene& scene) {
-  std::unordered_map<const Object*, Box> frames;
-  Box all;
-  for (const Instance& instance : scene.instances()) {
-    const auto [known, is_new] = frames.try_emplace(instance.object.get());
-    if (is_new) known->second = frame_of(*instance.object);
-    const bool moved = instance.transform.matrix() != Affine::Identity().matrix();
-    all.add(moved ? transformed(known->second, instance.transform) : known->second);
-  }
-  return all;
-}
-
-Camera choose_camera(const RenderOptions& options, const Stage& stage, const Scene& scene) {
-  if (options.camera) return *options.camera;
-  if (stage.scene.camera) return *stage.scene.camera;
-  if (scene.statistics().faces == 0)
-    throw InputError("no face has a limit surface, so that there is nothing to frame; expected --camera",
-                     options.model.file.string());
-  return default_camera(frame_of(scene), options.size);
-}
-
 void render_in_arena(const RenderOptions& options) {
   RenderStats stats;
   stats.threads = thread_count(options.threads);
@@ -159,7 +68,7 @@ void render_in_arena(const RenderOptions& options) {
   stats.build_seconds = stopwatch.lap();
 
   OutputFiles files(options);
-  const View view(choose_camera(options, stage, scene), options.size);
+  const View view(options.camera ? *options.camera : choose_camera(stage, scene, options.size), options.size);
   const Image image = render_image(scene, view, stage.scene.look, options.scene);
   stats.render_seconds = stopwatch.lap();
   stats.camera = to_string(view.camera());
@@ -174,18 +83,6 @@ void render_in_arena(const RenderOptions& options) {
   if (files.stats) write_stats(files.stats->path(), stats);
   files.commit();
   print_summary(options, stats);
-}
-
-/// Makes a parser's complaint a usage error.
-template <typename Value, typename Parse>
-std::function<void(const std::string&)> parse_into(Value& value, Parse parse, const char* flag) {
-  return [&value, parse, flag](const std::string& text) {
-    try {
-      value = parse(text);
-    } catch (const std::invalid_argument& error) {
-      throw CLI::ValidationError(flag, error.what());
-    }
-  };
 }
 
 }  // namespace

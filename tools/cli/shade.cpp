@@ -29,6 +29,11 @@ double largest_curvature(const LimitSample& sample) {
 
 }  // namespace
 
+PointLight key_light(const View& view) {
+  const double distance = (view.camera().target - view.camera().eye).norm();
+  return {view.camera().eye + distance * (0.75 * view.up() - 0.6 * view.right()), key_color};
+}
+
 Shader::Seen::Seen(const Ray& ray, const Hit& hit)
     : position(hit.sample.position),
       normal(hit.sample.normal.dot(ray.direction) <= 0 ? hit.sample.normal : Vec3(-hit.sample.normal)),
@@ -37,10 +42,7 @@ Shader::Seen::Seen(const Ray& ray, const Hit& hit)
 
 Shader::Shader(const Scene& scene, const View& view, Look look, const SceneOptions& options)
     : scene_(scene), look_(std::move(look)), up_(view.up()) {
-  if (look_.lights.empty()) {
-    const double distance = (view.camera().target - view.camera().eye).norm();
-    look_.lights.push_back({view.camera().eye + distance * (0.75 * view.up() - 0.6 * view.right()), key_color});
-  }
+  if (look_.lights.empty()) look_.lights.push_back(key_light(view));
   const Box bounds = scene.bounds();
   // Far above the rounding of a hit's position, far below what a pixel shows.
   offset_ = 1e-6 * (bounds.upper - bounds.lower).norm();

@@ -8,6 +8,9 @@
 
 namespace shaolin {
 
+/// The light of pictures that have no other: beside the camera, up and to the left.
+PointLight key_light(const View& view);
+
 /// Shades hits of one scene, seen in one view. Without lights, a key light stands beside the camera, up and to the
 /// left; a fill from all around, brighter from above, keeps shadows from being black. Both sides of the surface look
 /// the same.

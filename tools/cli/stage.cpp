@@ -37,6 +37,7 @@ void add_stage_options(CLI::App& app, ModelOptions& options) {
 
 Stage load_stage(const ModelOptions& options) {
   Stage stage;
+  stage.file = options.file.string();
   stage.is_scene = is_scene_file(options.file);
   if (!stage.is_scene) {
     stage.models.push_back(load_model(options));

@@ -11,6 +11,7 @@ namespace shaolin {
 
 /// The models of a scene, read, and where they stand.
 struct Stage {
+  std::string file;       ///< the MODEL, for messages
   bool is_scene = false;  ///< a scene file; else a model, which is one object under the identity
   SceneFile scene;
   std::vector<LoadedModel> models;  ///< of scene.objects

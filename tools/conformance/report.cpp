@@ -6,38 +6,19 @@
 #include <iomanip>
 #include <numbers>
 
+#include "tools/cli/html.h"
+
 namespace shaolin {
 
 namespace {
-
-const char* const style =
-    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:68rem;color:#222}"
-    "table{border-collapse:collapse}td,th{padding:.25rem .7rem;text-align:left;border-bottom:1px solid #ddd}"
-    "td.n{text-align:right;font-variant-numeric:tabular-nums}.pass{color:#18794e}.finding{color:#a15c00}"
-    ".FAIL{color:#c62828;font-weight:bold}svg{background:#fff}figure{display:inline-block;margin:.6rem}"
-    "figcaption{text-align:center;color:#555}";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
 
 void write_checks(std::ostream& out, const ConformanceReport& report) {
   out << "<h2>Checks</h2>\n<table><tr><th>check</th><th>worst at</th><th>figure</th><th>bar</th><th>verdict</th>"
          "<th></th></tr>\n";
   for (const CheckResult& check : report.checks)
-    out << "<tr><td>" << escaped(check.name) << "</td><td>" << escaped(check.subject) << "</td><td class=n>"
+    out << "<tr><td>" << html_escaped(check.name) << "</td><td>" << html_escaped(check.subject) << "</td><td class=n>"
         << check.figure << "</td><td class=n>" << check.bar << "</td><td class=" << to_string(check.verdict) << ">"
-        << to_string(check.verdict) << "</td><td>" << escaped(check.note) << "</td></tr>\n";
+        << to_string(check.verdict) << "</td><td>" << html_escaped(check.note) << "</td></tr>\n";
   out << "</table>\n";
 }
 
@@ -96,9 +77,9 @@ const char* to_string(Verdict verdict) {
 }
 
 void write_html(std::ostream& out, const ConformanceReport& report) {
-  out << "<!doctype html><html lang=en><meta charset=utf-8><title>" << escaped(report.scheme) << "</title><style>"
-      << style << "</style>\n<h1>The scheme " << escaped(report.scheme) << ": "
-      << (report.passed() ? "conforms" : "does not conform") << "</h1>\n<p>"
+  out << html_head(report.scheme,
+                   "The scheme " + report.scheme + ": " + (report.passed() ? "conforms" : "does not conform"))
+      << "<p>"
       << (report.face_kind == FaceKind::triangle ? "Triangles, each split into four."
                                                  : "Quads, each split into four; an n-gon first into n.")
       << "</p>\n"

@@ -9,25 +9,33 @@
 namespace shaolin {
 namespace {
 
-/// The sum of points times weights.
-struct Sum {
-  Vec3 value = Vec3::Zero();
-  void add(double weight, const Vec3& point) { value += weight * point; }
-};
-
+/// `Point` is Vec3, or as exact as its numbers are.
+template <class Point>
 class MaskStep {
  public:
-  MaskStep(const TaggedMesh& coarse, Refined& fine, const SubdivisionRules& rules, const SchemeMasks& masks)
+  using Scalar = typename Point::Scalar;
+
+  MaskStep(const TaggedMesh& coarse, const std::vector<Point>& points, const Refined& fine,
+           const SubdivisionRules& rules, const SchemeMasks& masks, const VertexWeightsOf<Scalar>& vertex_weights)
       : coarse_(coarse),
+        points_(points),
         fine_(fine),
         masks_(masks),
+        vertex_weights_(vertex_weights),
         triangular_(rules.triangular()),
         smooth_triangles_(rules.options.GetTriangleSubdivision() == OpenSubdiv::Sdc::Options::TRI_SUB_SMOOTH),
         by_rings_(masks.radius() == 2) {}
 
-  void run();
+  /// The points of the finer mesh; zero where it has none.
+  std::vector<Point> run();
 
  private:
+  /// The sum of points times weights.
+  struct Sum {
+    Point value = Point::Zero();
+    void add(const Scalar& weight, const Point& point) { value += weight * point; }
+  };
+
   /// How sharpness sees a vertex: its own and its edges', with the number of those that are sharp.
   struct Tags {
     float vertex;
@@ -44,16 +52,16 @@ class MaskStep {
   struct Fan {
     int vertex;
     bool closed;
-    std::vector<int> ends;        ///< the neighbours, counter-clockwise; one more than faces unless closed
-    std::vector<Vec3> diagonals;  ///< per face
-    int from;                     ///< where masks count from
+    std::vector<int> ends;         ///< the neighbours, counter-clockwise; one more than faces unless closed
+    std::vector<Point> diagonals;  ///< per face
+    int from;                      ///< where masks count from
 
     int faces() const { return static_cast<int>(diagonals.size()); }
     int valence() const { return closed ? faces() : 2 * faces(); }
   };
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  const Vec3& point(int vertex) const { return coarse_.points[at(vertex)]; }
+  const Point& point(int vertex) const { return points_[at(vertex)]; }
   int other_end(int edge, int vertex) const {
     const auto [a, b] = coarse_.edge_vertices[at(edge)];
     return a == vertex ? b : a;
@@ -64,40 +72,45 @@ class MaskStep {
   float half(int edge, int vertex) const;
   Tags tags(int vertex) const;
   Tags child_tags(int vertex) const;
-  Vec3 mean_of(int face) const;
-  Vec3 diagonal(int face, int corner) const;
+  Point mean_of(int face) const;
+  Point diagonal(int face, int corner) const;
   Fan fan(int face, int corner) const;
-  Vec3 by_ring_mask(const Fan& fan, const RingMask& mask) const;
+  Point by_ring_mask(const Fan& fan, const RingMask& mask) const;
   EdgeMask edge_mask(int edge) const;
 
-  Vec3 face_point(int face) const;
-  Vec3 edge_point(int edge) const;
-  Vec3 smooth_edge_point(int edge) const;
-  Vec3 vertex_point(int vertex) const;
-  Vec3 vertex_point_by(long rule, const Tags& tags, bool is_dart, int vertex) const;
+  Point face_point(int face) const;
+  Point edge_point(int edge) const;
+  Point smooth_edge_point(int edge) const;
+  Point vertex_point(int vertex) const;
+  Point vertex_point_by(long rule, const Tags& tags, bool is_dart, int vertex) const;
 
   const TaggedMesh& coarse_;
-  Refined& fine_;
+  const std::vector<Point>& points_;
+  const Refined& fine_;
   const SchemeMasks& masks_;
+  const VertexWeightsOf<Scalar>& vertex_weights_;
   bool triangular_, smooth_triangles_, by_rings_;
-  std::vector<Vec3> face_points_;
+  std::vector<Point> face_points_;
 };
 
 /// Child i of a face begins at the child of corner i; on the face's own frame it is that child's vertex i, on an
 /// n-gon's its vertex 0. The next vertex is the outgoing edge's child.
-int MaskStep::child_of_edge(int edge) const {
+template <class Point>
+int MaskStep<Point>::child_of_edge(int edge) const {
   const int face = coarse_.edge_faces[edge][0], i = coarse_.edge_face_slots[edge][0];
   const auto child = fine_.mesh.face_vertices[fine_.face_children[face][i]];
   const bool regular = coarse_.face_vertices.count(face) == (triangular_ ? 3 : 4);
   return child[regular ? at((i + 1) % static_cast<int>(child.size())) : 1];
 }
 
-int MaskStep::child_of_face(int face) const {
+template <class Point>
+int MaskStep<Point>::child_of_face(int face) const {
   const auto child = fine_.mesh.face_vertices[fine_.face_children[face][0]];
   return child[2];
 }
 
-float MaskStep::half(int edge, int vertex) const {
+template <class Point>
+float MaskStep<Point>::half(int edge, int vertex) const {
   const int a = fine_.vertex_child[at(vertex)], b = child_of_edge(edge);
   for (const int e : fine_.mesh.vertex_edges[a]) {
     const auto ends = fine_.mesh.edge_vertices[at(e)];
@@ -106,28 +119,32 @@ float MaskStep::half(int edge, int vertex) const {
   return 0;
 }
 
-MaskStep::Tags MaskStep::tags(int vertex) const {
+template <class Point>
+typename MaskStep<Point>::Tags MaskStep<Point>::tags(int vertex) const {
   Tags result{coarse_.vertex_sharpness[at(vertex)], {}};
   for (const int e : coarse_.vertex_edges[vertex])
     result.edges.push_back(coarse_.is_crease(e) ? osd_infinite : coarse_.edge_sharpness[at(e)]);
   return result;
 }
 
-MaskStep::Tags MaskStep::child_tags(int vertex) const {
+template <class Point>
+typename MaskStep<Point>::Tags MaskStep<Point>::child_tags(int vertex) const {
   Tags result{fine_.mesh.vertex_sharpness[at(fine_.vertex_child[at(vertex)])], {}};
   for (const int e : coarse_.vertex_edges[vertex])
     result.edges.push_back(coarse_.is_crease(e) ? osd_infinite : half(e, vertex));
   return result;
 }
 
-Vec3 MaskStep::mean_of(int face) const {
-  Vec3 sum = Vec3::Zero();
+template <class Point>
+Point MaskStep<Point>::mean_of(int face) const {
+  Point sum = Point::Zero();
   for (const int v : coarse_.face_vertices[face]) sum += point(v);
-  return sum / coarse_.face_vertices.count(face);
+  return sum / Scalar(coarse_.face_vertices.count(face));
 }
 
 /// The vertex across a quad, or the fourth corner of the parallelogram over a corner's two sides.
-Vec3 MaskStep::diagonal(int face, int corner) const {
+template <class Point>
+Point MaskStep<Point>::diagonal(int face, int corner) const {
   const auto vertices = coarse_.face_vertices[face];
   if (vertices.size() == 4) return point(vertices[at((corner + 2) % 4)]);
   return point(coarse_.next_vertex(face, corner)) + point(coarse_.previous_vertex(face, corner)) -
@@ -135,7 +152,8 @@ Vec3 MaskStep::diagonal(int face, int corner) const {
 }
 
 /// Masks count from the edge that leaves the face's corner.
-MaskStep::Fan MaskStep::fan(int face, int corner) const {
+template <class Point>
+typename MaskStep<Point>::Fan MaskStep<Point>::fan(int face, int corner) const {
   Sector around = sector_around(coarse_, face, corner, true);
   Sector cut = sector_around(coarse_, face, corner, false);
   int creases = 0;
@@ -158,46 +176,51 @@ MaskStep::Fan MaskStep::fan(int face, int corner) const {
 /// An open fan of k faces is laid out flat, its creases in one line and pi / k between its edges, and mirrored in that
 /// line: what the mask weighs beyond it, at an angle of -a, is 2 foot - p for the point p at a, whose foot stands at
 /// cos(a) times p's distance on the line.
-Vec3 MaskStep::by_ring_mask(const Fan& fan, const RingMask& mask) const {
+template <class Point>
+Point MaskStep<Point>::by_ring_mask(const Fan& fan, const RingMask& mask) const {
   const int n = fan.valence(), k = fan.faces();
-  const Vec3& centre = point(fan.vertex);
-  const auto mirrored = [&](const Vec3& p, double angle, double distance) -> Vec3 {
+  const Point& centre = point(fan.vertex);
+  const auto mirrored = [&](const Point& p, double angle, double distance) -> Point {
     const double along = distance * std::cos(angle);
-    const Vec3& end = point(along > 0 ? fan.ends.front() : fan.ends.back());
-    return 2 * (centre + std::abs(along) * (end - centre)) - p;
+    const Point& end = point(along > 0 ? fan.ends.front() : fan.ends.back());
+    return Scalar(2) * (centre + Scalar(std::abs(along)) * (end - centre)) - p;
   };
   Sum sum;
-  sum.add(mask.vertex, centre);
+  sum.add(Scalar(mask.vertex), centre);
   for (int i = 0; i < static_cast<int>(mask.edges.size()); ++i) {
     const int place = (fan.from + i) % n;
     const bool here = fan.closed || place <= k;
-    sum.add(mask.edges[at(i)], here ? point(fan.ends[at(place)])
-                                    : mirrored(point(fan.ends[at(n - place)]), (n - place) * std::numbers::pi / k, 1));
+    sum.add(Scalar(mask.edges[at(i)]),
+            here ? point(fan.ends[at(place)])
+                 : mirrored(point(fan.ends[at(n - place)]), (n - place) * std::numbers::pi / k, 1));
   }
   for (int i = 0; i < static_cast<int>(mask.diagonals.size()); ++i) {
     const int place = (fan.from + i) % n;
     const bool here = fan.closed || place < k;
-    sum.add(mask.diagonals[at(i)], here ? fan.diagonals[at(place)]
-                                        : mirrored(fan.diagonals[at(n - 1 - place)],
-                                                   (n - place - 0.5) * std::numbers::pi / k, std::numbers::sqrt2));
+    sum.add(Scalar(mask.diagonals[at(i)]),
+            here ? fan.diagonals[at(place)]
+                 : mirrored(fan.diagonals[at(n - 1 - place)], (n - place - 0.5) * std::numbers::pi / k,
+                            std::numbers::sqrt2));
   }
   return sum.value;
 }
 
-Vec3 MaskStep::face_point(int face) const {
+template <class Point>
+Point MaskStep<Point>::face_point(int face) const {
   const int size = coarse_.face_vertices.count(face);
   if (!by_rings_ || size != 4) return mean_of(face);
-  Vec3 sum = Vec3::Zero();
+  Point sum = Point::Zero();
   for (int c = 0; c < 4; ++c) {
     const int vertex = coarse_.face_vertices[face][at(c)];
     const Fan around = fan(face, c);
     const bool has_mask = around.valence() >= 3;
-    sum += has_mask ? by_ring_mask(around, masks_.face_corner(around.valence())) : Vec3(point(vertex) / 4);
+    sum += has_mask ? by_ring_mask(around, masks_.face_corner(around.valence())) : Point(point(vertex) / Scalar(4));
   }
   return sum;
 }
 
-EdgeMask MaskStep::edge_mask(int edge) const {
+template <class Point>
+EdgeMask MaskStep<Point>::edge_mask(int edge) const {
   const auto faces = coarse_.edge_faces[edge];
   const auto triangles =
       std::count_if(faces.begin(), faces.end(), [&](int face) { return coarse_.face_vertices.count(face) == 3; });
@@ -205,17 +228,18 @@ EdgeMask MaskStep::edge_mask(int edge) const {
   return beside_triangles ? masks_.triangle_edge(static_cast<int>(triangles)) : masks_.smooth_edge();
 }
 
-Vec3 MaskStep::smooth_edge_point(int edge) const {
+template <class Point>
+Point MaskStep<Point>::smooth_edge_point(int edge) const {
   const auto ends = coarse_.edge_vertices[at(edge)];
-  const Vec3 middle = (point(ends[0]) + point(ends[1])) / 2;
+  const Point middle = (point(ends[0]) + point(ends[1])) / Scalar(2);
   if (!by_rings_) {
     const auto faces = coarse_.edge_faces[edge];
     const auto corners = coarse_.edge_face_slots[edge];
-    Vec3 sides = Vec3::Zero();
+    Point sides = Point::Zero();
     for (std::size_t i = 0; i < 2; ++i)
       sides += triangular_ ? point(coarse_.previous_vertex(faces[i], corners[i])) : face_points_[at(faces[i])];
     const EdgeMask mask = edge_mask(edge);
-    return mask.end * 2 * middle + mask.side * sides;
+    return Scalar(mask.end * 2) * middle + Scalar(mask.side) * sides;
   }
   std::vector<Fan> fans;  // of either end, each seen from the face that the edge leads there
   for (int i = 0; i < 2; ++i)
@@ -225,30 +249,33 @@ Vec3 MaskStep::smooth_edge_point(int edge) const {
          by_ring_mask(fans[1], masks_.edge_end(fans[1].valence(), fans[0].valence()));
 }
 
-Vec3 MaskStep::edge_point(int edge) const {
+template <class Point>
+Point MaskStep<Point>::edge_point(int edge) const {
   const auto [a, b] = coarse_.edge_vertices[at(edge)];
-  const Vec3 middle = (point(a) + point(b)) / 2;
+  const Point middle = (point(a) + point(b)) / Scalar(2);
   const float sharpness = coarse_.edge_sharpness[at(edge)];
   if (coarse_.is_crease(edge) || (half(edge, a) > 0 && half(edge, b) > 0)) return middle;
   if (sharpness <= 0) return smooth_edge_point(edge);
-  return static_cast<double>(sharpness) * middle + (1 - static_cast<double>(sharpness)) * smooth_edge_point(edge);
+  return Scalar(sharpness) * middle + (Scalar(1) - Scalar(sharpness)) * smooth_edge_point(edge);
 }
 
-Vec3 MaskStep::vertex_point_by(long rule, const Tags& tags, bool is_dart, int vertex) const {
+template <class Point>
+Point MaskStep<Point>::vertex_point_by(long rule, const Tags& tags, bool is_dart, int vertex) const {
   if (rule == 3) return point(vertex);
   const auto edges = coarse_.vertex_edges[vertex];
   Sum sum;
   if (rule == 2) {
     const CreaseMask crease = masks_.crease();
-    sum.add(crease.vertex, point(vertex));
+    sum.add(Scalar(crease.vertex), point(vertex));
     for (std::size_t i = 0; i < edges.size(); ++i)
-      if (tags.edges[i] > 0) sum.add(crease.edge, point(other_end(edges[i], vertex)));
+      if (tags.edges[i] > 0) sum.add(Scalar(crease.edge), point(other_end(edges[i], vertex)));
     return sum.value;
   }
   const int n = static_cast<int>(edges.size());
-  const VertexMask mask = is_dart                           ? masks_.dart_vertex(n)
-                          : coarse_.vertex_cone[at(vertex)] ? masks_.cone_vertex(n)
-                                                            : masks_.smooth_vertex(n);
+  const RingRule ring_rule = is_dart                           ? RingRule::dart
+                             : coarse_.vertex_cone[at(vertex)] ? RingRule::cone
+                                                               : RingRule::smooth;
+  const VertexWeights<Scalar> mask = vertex_weights_(n, ring_rule);
   sum.add(mask.vertex, point(vertex));
   for (const int edge : edges) sum.add(mask.edge, point(other_end(edge, vertex)));
   if (mask.face != 0)
@@ -257,12 +284,13 @@ Vec3 MaskStep::vertex_point_by(long rule, const Tags& tags, bool is_dart, int ve
 }
 
 /// Both levels' rules; where they differ, shared by the mean of the sharpness that ends here.
-Vec3 MaskStep::vertex_point(int vertex) const {
+template <class Point>
+Point MaskStep<Point>::vertex_point(int vertex) const {
   if (coarse_.vertex_non_manifold[at(vertex)]) return point(vertex);
   const Tags now = tags(vertex), next = child_tags(vertex);
   const long rule = now.rule(), child = rule < 2 ? rule : next.rule();
   const bool is_dart = rule == 1 || child == 1;
-  const Vec3 by_parent = vertex_point_by(rule, now, is_dart, vertex);
+  const Point by_parent = vertex_point_by(rule, now, is_dart, vertex);
   if (rule == child) return by_parent;
   float sum = 0;
   int count = 0;
@@ -271,12 +299,13 @@ Vec3 MaskStep::vertex_point(int vertex) const {
   };
   ends_here(now.vertex, next.vertex);
   for (std::size_t i = 0; i < now.edges.size(); ++i) ends_here(now.edges[i], next.edges[i]);
-  const double share = std::min(1.0f, sum / static_cast<float>(count));
-  return share * by_parent + (1 - share) * vertex_point_by(child, next, is_dart, vertex);
+  const Scalar share(std::min(1.0f, sum / static_cast<float>(count)));
+  return share * by_parent + (Scalar(1) - share) * vertex_point_by(child, next, is_dart, vertex);
 }
 
-void MaskStep::run() {
-  auto& points = fine_.mesh.points;
+template <class Point>
+std::vector<Point> MaskStep<Point>::run() {
+  std::vector<Point> points(fine_.mesh.points.size(), Point::Zero());
   for (int f = 0; f < coarse_.face_count(); ++f) {
     face_points_.push_back(face_point(f));
     if (!triangular_) points[at(child_of_face(f))] = face_points_.back();
@@ -284,14 +313,30 @@ void MaskStep::run() {
   for (int e = 0; e < coarse_.edge_count(); ++e) points[at(child_of_edge(e))] = edge_point(e);
   for (int v = 0; v < coarse_.vertex_count(); ++v)
     if (coarse_.vertex_faces.count(v) > 0) points[at(fine_.vertex_child[at(v)])] = vertex_point(v);
+  return points;
 }
 
 }  // namespace
 
+VertexMask vertex_mask(const SchemeMasks& masks, int n, RingRule rule) {
+  if (rule == RingRule::dart) return masks.dart_vertex(n);
+  return rule == RingRule::cone ? masks.cone_vertex(n) : masks.smooth_vertex(n);
+}
+
 Refined refine(const TaggedMesh& mesh, const SubdivisionRules& rules, const SchemeMasks& masks) {
   Refined result = refine(mesh, rules);
-  MaskStep(mesh, result, rules, masks).run();
+  const VertexWeightsOf<double> weights = [&](int n, RingRule rule) -> VertexWeights<double> {
+    const VertexMask mask = vertex_mask(masks, n, rule);
+    return {mask.vertex, mask.edge, mask.face};
+  };
+  result.mesh.points = MaskStep<Vec3>(mesh, mesh.points, result, rules, masks, weights).run();
   return result;
+}
+
+std::vector<QuadVec3> refine_points(const TaggedMesh& coarse, const std::vector<QuadVec3>& points, const Refined& fine,
+                                    const SubdivisionRules& rules, const SchemeMasks& masks,
+                                    const VertexWeightsOf<Quad>& vertex_weights) {
+  return MaskStep<QuadVec3>(coarse, points, fine, rules, masks, vertex_weights).run();
 }
 
 }  // namespace shaolin

@@ -13,10 +13,10 @@ struct Piece {
   int face, sub;
 };
 
-std::vector<Piece> pieces_of(const Oracle& oracle) {
+std::vector<Piece> pieces_of(const SampledSurface& surface) {
   std::vector<Piece> pieces;
-  for (int face = 0; face < oracle.face_count(); ++face) {
-    for (int sub = 0; oracle.has_limit(face) && sub < oracle.sub_count(face); ++sub) pieces.push_back({face, sub});
+  for (int face = 0; face < surface.face_count; ++face) {
+    for (int sub = 0; surface.has_limit(face) && sub < surface.sub_count(face); ++sub) pieces.push_back({face, sub});
   }
   return pieces;
 }
@@ -78,12 +78,12 @@ struct Surroundings {
 };
 
 /// From the corners and a point inside of each piece.
-Surroundings surroundings_of(const Oracle& oracle, const std::vector<Piece>& pieces) {
+Surroundings surroundings_of(const SampledSurface& surface, const std::vector<Piece>& pieces) {
   constexpr double places[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.3125, 0.3125}};
-  Vec3 lower = oracle.evaluate({pieces[0].face, pieces[0].sub, 0, 0})->position, upper = lower;
+  Vec3 lower = surface.evaluate({pieces[0].face, pieces[0].sub, 0, 0})->position, upper = lower;
   for (const Piece& piece : pieces) {
     for (const auto& [u, v] : places) {
-      const Vec3 point = oracle.evaluate({piece.face, piece.sub, u, v})->position;
+      const Vec3 point = surface.evaluate({piece.face, piece.sub, u, v})->position;
       lower = lower.cwiseMin(point);
       upper = upper.cwiseMax(point);
     }
@@ -107,35 +107,53 @@ ProbeRay incoherent_ray(const Surroundings& model, Random& random) {
 }
 
 /// The origin lies `distance` before the point, so that the ray meets it at t = 1.
-ProbeRay ray_through(RayKind kind, const Oracle& oracle, const SurfaceParameter& at, const LimitSample& sample,
+ProbeRay ray_through(RayKind kind, const SampledSurface& surface, const SurfaceParameter& at, const LimitSample& sample,
                      const Vec3& direction, double distance) {
-  const bool crosses = oracle.is_inside(at) && std::abs(direction.dot(sample.normal)) > 1e-2;
+  const bool crosses = surface.is_inside(at) && std::abs(direction.dot(sample.normal)) > 1e-2;
   return {kind, {sample.position - distance * direction, distance * direction}, 1.0, crosses};
 }
 
-ProbeRay grazing_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
-  const SurfaceParameter at = random_parameter(piece, oracle.triangular(), random);
-  const LimitSample sample = *oracle.evaluate(at);
+ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, Random& random) {
+  const SurfaceParameter at = random_parameter(piece, surface.triangular, random);
+  const LimitSample sample = *surface.evaluate(at);
   const Vec3 tangent = sample.normal.cross(random.direction()).normalized();
   const double tilt = random.log_between(1e-4, 1e-1) * (random.one_in(2) ? 1 : -1);
   const Vec3 direction = std::cos(tilt) * tangent + std::sin(tilt) * sample.normal;
   // No tangent plane: any direction will do.
   const Vec3 usable = direction.norm() > 0.5 ? direction.normalized() : random.direction();
-  return ray_through(RayKind::grazing, oracle, at, sample, usable, random.log_between(1e-2, 3) * model.diagonal);
+  return ray_through(RayKind::grazing, surface, at, sample, usable, random.log_between(1e-2, 3) * model.diagonal);
 }
 
-ProbeRay aimed_ray(const Oracle& oracle, const Piece& piece, const Surroundings& model, Random& random) {
+ProbeRay aimed_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, Random& random) {
   const bool at_corner = random.one_in(2);
-  const double side = oracle.triangular() && random.one_in(2) ? 1 : 0;
-  const SurfaceParameter at = near_corner(piece, oracle.triangular(), at_corner ? 0 : random.unit(), side, random);
-  return ray_through(RayKind::aimed, oracle, at, *oracle.evaluate(at), random.direction(),
+  const double side = surface.triangular && random.one_in(2) ? 1 : 0;
+  const SurfaceParameter at = near_corner(piece, surface.triangular, at_corner ? 0 : random.unit(), side, random);
+  return ray_through(RayKind::aimed, surface, at, *surface.evaluate(at), random.direction(),
                      random.log_between(1e-2, 3) * model.diagonal);
 }
 
 }  // namespace
 
+SampledSurface SampledSurface::of(const Oracle& oracle) {
+  return {.face_count = oracle.face_count(),
+          .triangular = oracle.triangular(),
+          .has_limit = [&](int face) { return oracle.has_limit(face); },
+          .sub_count = [&](int face) { return oracle.sub_count(face); },
+          .evaluate = [&](const SurfaceParameter& at) { return oracle.evaluate(at); },
+          .is_inside = [&](const SurfaceParameter& at) { return oracle.is_inside(at); }};
+}
+
+SampledSurface SampledSurface::of(const LimitSurface& surface) {
+  return {.face_count = surface.face_count(),
+          .triangular = surface.triangular(),
+          .has_limit = [&](int face) { return surface.has_limit(face); },
+          .sub_count = [&](int face) { return surface.sub_count(face); },
+          .evaluate = [&](const SurfaceParameter& at) { return surface.evaluate(at); },
+          .is_inside = [](const SurfaceParameter&) { return false; }};
+}
+
 std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
-  const std::vector<Piece> pieces = pieces_of(oracle);
+  const std::vector<Piece> pieces = pieces_of(SampledSurface::of(oracle));
   std::vector<SurfaceParameter> parameters;
   if (pieces.empty()) return parameters;
   Random random(seed);
@@ -161,19 +179,19 @@ const char* name_of(RayKind kind) {
   return "aimed";
 }
 
-std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
-  const std::vector<Piece> pieces = pieces_of(oracle);
+std::vector<ProbeRay> sample_rays(const SampledSurface& surface, std::size_t count, std::uint64_t seed) {
+  const std::vector<Piece> pieces = pieces_of(surface);
   std::vector<ProbeRay> rays;
   if (pieces.empty()) return rays;
-  const Surroundings model = surroundings_of(oracle, pieces);
+  const Surroundings model = surroundings_of(surface, pieces);
   Random random(seed);
   for (std::size_t i = 0; i < count + count / 10; ++i) {
     const RayKind kind = i < count ? ray_kinds[i % 3] : RayKind::aimed;
     const Piece& piece = pieces[random.index(pieces.size())];
     ProbeRay probe = kind == RayKind::camera       ? camera_ray(model, random)
                      : kind == RayKind::incoherent ? incoherent_ray(model, random)
-                     : kind == RayKind::grazing    ? grazing_ray(oracle, piece, model, random)
-                                                   : aimed_ray(oracle, piece, model, random);
+                     : kind == RayKind::grazing    ? grazing_ray(surface, piece, model, random)
+                                                   : aimed_ray(surface, piece, model, random);
     const double length = random.log_between(1e-2, 1e2);
     probe.ray.direction *= length;
     probe.ray.tmin /= length;
@@ -182,6 +200,10 @@ std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::
     rays.push_back(probe);
   }
   return rays;
+}
+
+std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
+  return sample_rays(SampledSurface::of(oracle), count, seed);
 }
 
 }  // namespace shaolin

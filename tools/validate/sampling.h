@@ -3,13 +3,29 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "intersect/ray.h"
+#include "schemes/limit_surface.h"
 #include "tools/validate/oracle.h"
 
 namespace shaolin {
+
+/// A surface to look at: an oracle's, or the product's own where that is not what is checked.
+struct SampledSurface {
+  int face_count;
+  bool triangular;
+  std::function<bool(int)> has_limit;
+  std::function<int(int)> sub_count;
+  std::function<std::optional<LimitSample>(const SurfaceParameter&)> evaluate;
+  std::function<bool(const SurfaceParameter&)> is_inside;  ///< see Oracle::is_inside(); may be false where not known
+
+  /// They must outlive the result.
+  static SampledSurface of(const Oracle& oracle);
+  static SampledSurface of(const LimitSurface& surface);
+};
 
 /// Faces with a limit surface and their subs, each as likely; u and v uniform, but a quarter of them at distances from
 /// a random corner of the domain (in the largest of |du|, |dv|) that are log-uniform from 1 down to 1e-8. Of that
@@ -37,6 +53,7 @@ struct ProbeRay {
 /// `count` rays, in thirds camera, incoherent and grazing, and a tenth of that in addition aimed. Directions have
 /// lengths of several orders of magnitude. The model's box is that of the surface, not of its control points, which may
 /// be far away. Empty if no face has a limit surface.
+std::vector<ProbeRay> sample_rays(const SampledSurface& surface, std::size_t count, std::uint64_t seed);
 std::vector<ProbeRay> sample_rays(const Oracle& oracle, std::size_t count, std::uint64_t seed);
 
 }  // namespace shaolin

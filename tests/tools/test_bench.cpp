@@ -1,0 +1,398 @@
+/// `bench`: what it measures by, and its three subcommands at small sizes.
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "tests/catch.h"
+#include "tests/intersect/random_rays.h"
+#include "tests/meshes.h"
+#include "tests/tools/cli_run.h"
+#include "tools/bench/embree_uniform.h"
+#include "tools/bench/error_figures.h"
+#include "tools/bench/measure.h"
+#include "tools/bench/paper_figures.h"
+#include "tools/bench/plot.h"
+#include "tools/bench/silhouette_band.h"
+#include "tools/cli/csv.h"
+#include "tools/validate/quad_oracle.h"
+
+namespace shaolin::test {
+namespace {
+
+/// The square [-1, 1] x [-1, 1] in the plane z = 0, seen from above.
+Scene plate() {
+  ControlMesh mesh = mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2, 3}});
+  return Scene(std::move(mesh), "bilinear");
+}
+
+Ray down(double x, double y) {
+  Ray ray;
+  ray.origin = {x, y, 5};
+  ray.direction = {0, 0, -2};
+  return ray;
+}
+
+/// A table's rows by the names of its columns.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+
+  explicit Table(const std::filesystem::path& file) : rows(read_rows(file)) {
+    INFO(file);
+    REQUIRE(rows.size() > 1);
+    header = rows.front();
+    rows.erase(rows.begin());
+    for (const auto& row : rows) REQUIRE(row.size() == header.size());
+  }
+
+  std::string text(std::size_t row, const std::string& column) const {
+    const auto at = std::find(header.begin(), header.end(), column);
+    INFO(column);
+    REQUIRE(at != header.end());
+    return rows[row][static_cast<std::size_t>(at - header.begin())];
+  }
+  double number(std::size_t row, const std::string& column) const { return std::stod(text(row, column)); }
+};
+
+/// Of one row, all columns that begin so.
+double sum_of(const Table& table, std::size_t row, const std::string& prefix) {
+  double sum = 0;
+  for (std::size_t i = 0; i < table.header.size(); ++i)
+    if (table.header[i].starts_with(prefix)) sum += std::stod(table.rows[row][i]);
+  return sum;
+}
+
+/// What must be true of every measurement.
+void check_errors(const Table& errors) {
+  for (std::size_t i = 0; i < errors.rows.size(); ++i) {
+    CAPTURE(errors.rows[i]);
+    const std::string method = errors.text(i, "method");
+    CHECK(errors.number(i, "distance_median") <= errors.number(i, "distance_p99"));
+    CHECK(errors.number(i, "distance_p99") <= errors.number(i, "distance_max"));
+    if (method == "ShaoLin exact")
+      for (const char* column : {"distance_max", "normal_max", "lost", "ghosts"}) CHECK(errors.number(i, column) == 0);
+    if (method == "ShaoLin" || method == "A3") {
+      CHECK(errors.number(i, "lost_outside") == 0);
+      CHECK(errors.number(i, "ghosts_outside") == 0);
+    }
+    // Chords of a smooth surface: the error falls to a quarter with each level.
+    if (method.starts_with("Uniform") && errors.text(i, "parameter") != "1") {
+      CHECK(errors.text(i - 1, "method") == method);
+      const double factor = errors.number(i - 1, "distance_median") / errors.number(i, "distance_median");
+      CHECK(factor > 2.5);
+      CHECK(factor < 6);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The silhouette band explains what a shift across the ray does, and nothing else", "[tools][bench]") {
+  const Scene scene = plate();
+  const double width = 0.1;
+  const auto band = [&](double x) { return silhouette_band(scene, down(x, 0.2), width); };
+  // Inside: hits at a distance of 5, whichever way; a miss is not explained, nor is a hit far before or behind.
+  CHECK_FALSE(band(0).any_miss);
+  CHECK(band(0).nearest == Approx(5));
+  CHECK(band(0).farthest == Approx(5));
+  CHECK(band(0).explains(5.05, width));
+  CHECK_FALSE(band(0).explains(5.2, width));
+  CHECK_FALSE(band(0).explains(std::nullopt, width));
+  // A little less than the width from the rim, on either side of it; then a little more.
+  for (const double x : {0.901, 1.099}) {
+    CHECK(band(x).explains(5.0, width));
+    CHECK(band(x).explains(std::nullopt, width));
+  }
+  CHECK_FALSE(band(0.899).explains(std::nullopt, width));
+  CHECK_FALSE(band(1.101).explains(5.0, width));
+}
+
+TEST_CASE("The band's width is that of epsilon or of the smallest patch that is refined", "[tools][bench]") {
+  const ChordOptions options{.epsilon = 0.03, .min_size = 2};
+  CHECK(band_width(options, {}, 7) == Approx(0.04));
+  CHECK(band_width(options, {.width = 0.1, .growth = 0.01}, 7) == Approx(4.0 / 3 * 2 * 0.17));
+}
+
+TEST_CASE("Answers that are wrong are found, in the band and outside", "[tools][bench]") {
+  const Scene scene = plate();
+  const Contender chords{.kind = ContenderKind::chord, .chord = {.epsilon = 0.075, .min_size = 0}};  // a band of 0.1
+  const std::vector<Ray> rays{down(0, 0), down(0.3, 0.1), down(0.95, 0), down(1.05, 0), down(3, 0), down(0.5, 0.5)};
+  const Answers expected = trace(rays, scene);
+  REQUIRE(expected[0]);
+  REQUIRE_FALSE(expected[3]);
+  CHECK(compare(chords, scene, rays, expected, expected).lost_outside == 0);
+
+  Answers wrong = expected;
+  wrong[0].reset();                    // lost in the middle
+  wrong[1]->t += 0.5;                  // farther by 1 (the direction's length is 2)
+  wrong[2].reset();                    // lost at the rim
+  wrong[3] = wrong[4] = *expected[5];  // ghosts: beside the rim, and in nothing
+  wrong[5]->normal = {0, std::sin(0.25), std::cos(0.25)};
+  const ErrorFigures figures = compare(chords, scene, rays, expected, wrong);
+  CHECK(figures.rays == 6);
+  CHECK(figures.hits == 4);
+  CHECK(figures.lost == 2);
+  CHECK(figures.farther == 1);
+  CHECK(figures.nearer == 0);
+  CHECK(figures.ghosts == 2);
+  CHECK(figures.lost_outside == 2);  // of lost and farther
+  CHECK(figures.ghosts_outside == 1);
+  CHECK(figures.outside.size() == 3);
+  CHECK(figures.distance.max == Approx(1));
+  CHECK(figures.normal.max == Approx(0.25));
+}
+
+TEST_CASE("Quantiles and spreads", "[tools][bench]") {
+  std::vector<double> values;
+  for (int i = 100; i >= 0; --i) values.push_back(i);
+  const Quantiles of = quantiles(values);
+  CHECK(of.median == 50);
+  CHECK(of.p99 == 99);
+  CHECK(of.max == 100);
+  CHECK(spread({3, 1}).median == 2);
+  CHECK(spread({5, 1, 3}).median == 3);
+  CHECK(spread({5, 1, 3}).least == 1);
+  CHECK(spread({5, 1, 3}).most == 5);
+  LevelCounts counts;
+  for (const int level : {1, 3, 3, 40}) counts.add(level);
+  CHECK(counts.total() == 4);
+  CHECK(counts.mean() == Approx((1 + 3 + 3 + 15) / 4.0));
+}
+
+TEST_CASE("The paper's tables add up to its means", "[tools][bench]") {
+  for (const PaperScene& scene : paper_scenes())
+    for (const PaperLevels& row : scene.levels) {
+      double hits = 0, sum = 0;
+      for (std::size_t i = 0; i < row.hits.size(); ++i) {
+        hits += row.hits[i];
+        sum += static_cast<double>(i + 1) * row.hits[i];
+      }
+      CAPTURE(scene.title, row.epsilon);
+      CHECK(std::abs(sum / hits - row.mean) < 0.011);
+    }
+}
+
+// Groups, a mirrored and an uneven transform, both kinds of faces.
+TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench]") {
+  const int level = GENERATE(1, 4);
+  const Stage stage = load_stage({data_file("scenes/mirrors.json"), {}, {}});
+  SceneOptions options;
+  options.method = Method::uniform;
+  options.level = level;
+  Stage copy = stage;
+  const Scene ours = build_scene(copy, options);
+  const EmbreeUniform theirs(stage, level);
+  const double diagonal = (ours.bounds().upper - ours.bounds().lower).norm();
+  int hits = 0, differ = 0;
+  for (const Ray& ray : random_rays(ours.bounds(), 3000, 5)) {
+    const auto a = ours.intersect(ray);
+    const auto b = theirs.intersect(ray);
+    differ += a.has_value() != b.has_value() || theirs.occluded(ray) != b.has_value();
+    if (!a || !b) continue;
+    ++hits;
+    // Single precision, and at outlines and contacts another sheet.
+    differ +=
+        std::abs(a->t - b->t) * ray.direction.norm() > 1e-5 * diagonal || (a->sample.normal - b->normal).norm() > 2e-3;
+  }
+  CHECK(hits > 1000);
+  CHECK(differ <= hits / 200);
+  CHECK(theirs.bytes() > 0);
+}
+
+// Regular patches, and rounded corners, n-gons, creases, darts and points near irregular vertices.
+TEST_CASE("Refinement in quadruple precision finds the limit", "[tools][bench]") {
+  Random random(11);
+  for (const std::string name : {"torus.obj", "ngon_body.obj", "cube_creases.obj", "dart.obj", "loop_torus.obj"}) {
+    const LoadedModel model = load_model({data_file(name), {}, {}});
+    const QuadOracle oracle(model.mesh, model.scheme);
+    const auto surface = make_limit_surface(model.mesh, model.scheme);
+    for (int i = 0; i < 12; ++i) {
+      const int face = random.index(surface->face_count()), sub = random.index(surface->sub_count(face));
+      const double u = random.uniform(0, i % 3 == 0 ? 1e-3 : 0.5), v = random.uniform(0, 0.5);
+      const SurfaceParameter at{face, sub, u, v};
+      const auto sample = surface->evaluate(at);
+      if (!sample) continue;
+      CAPTURE(name, face, sub, at.u, at.v);
+      const QuadVec3 difference = oracle.position(at) - sample->position.cast<Quad>();
+      CHECK(static_cast<double>(difference.norm()) < 1e-15 * oracle.diagonal());
+    }
+  }
+}
+
+// A pyramid of n faces around vertex 0 at z = 1, the rest at z = 0 but vertex 1 at z = 1: the limit weighs the vertex
+// 1 - n w and its neighbours w = 1 / (n + 3 / (8 beta)), which no double holds.
+TEST_CASE("Refinement in quadruple precision has more digits than double", "[tools][bench]") {
+  for (const int n : {5, 6}) {
+    std::vector<Vec3> points{{0, 0, 1}};
+    std::vector<std::vector<int>> faces;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      points.emplace_back(std::cos(angle), std::sin(angle), i == 0 ? 1 : 0);
+      faces.push_back({0, 1 + i, 1 + (i + 1) % n});
+    }
+    const QuadVec3 limit = QuadOracle(mesh_of(points, faces), "loop").position({0, 0, 0, 0});
+    const Quad cosine = n == 6 ? Quad(1) / 2 : (sqrt(Quad(5)) - 1) / 4;  // of 2 pi / n
+    const Quad root = Quad(3) / 8 + cosine / 4, beta = (Quad(5) / 8 - root * root) / n;
+    const Quad weight = 1 / (n + 3 / (8 * beta));
+    CAPTURE(n);
+    CHECK(static_cast<double>(abs(limit.z() - (1 - n * weight + weight))) < 1e-25);
+  }
+}
+
+TEST_CASE("A plot holds what is positive, and a legend", "[tools][bench]") {
+  Plot plot{.x_label = "x < y", .y_label = "time"};
+  plot.series.push_back({.name = "a", .color = "#111", .points = {{1, 2, 1, 3, "p"}, {0, 1}, {10, 20}}});
+  plot.series.push_back({.name = "b", .color = "#222", .points = {{1, 5, 0, 0, "line"}}, .level_line = true});
+  std::ostringstream out;
+  write_svg(out, plot);
+  const std::string svg = out.str();
+  const auto count = [&](const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count("<circle") == 2);
+  CHECK(count(">line<") == 1);
+  CHECK(count("x &lt; y") == 1);
+  CHECK(count("nan") + count("inf") == 0);
+}
+
+TEST_CASE("bench paper counts every hit once, and its files can be read", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "paper", "--size", "40x40", "--runs", "2", "--level", "3", "--only",
+                                      "frogship", "--scenes", data_file("scenes"), "--report", folder / "out/paper"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  const auto file = [&](const std::string& name) { return folder / ("out/paper/" + name); };
+  const Table levels(file("levels.csv")), errors(file("errors.csv")), times(file("times.csv"));
+  REQUIRE(levels.rows.size() == 1 + 2 * 7 + 2 * 3);
+  REQUIRE(errors.rows.size() == levels.rows.size());
+  REQUIRE(times.rows.size() == levels.rows.size());
+  double before = 100;
+  for (std::size_t i = 0; i < levels.rows.size(); ++i) {
+    CAPTURE(levels.rows[i]);
+    const double hits = sum_of(levels, i, "primary_") + sum_of(levels, i, "shadow_");
+    CHECK(hits == errors.number(i, "hits") - errors.number(i, "lost") + errors.number(i, "ghosts"));
+    CHECK(hits > 300);
+    if (levels.text(i, "method") == "ShaoLin") {
+      CHECK(levels.number(i, "mean_level") <= before);
+      before = levels.number(i, "mean_level");
+    }
+    if (levels.text(i, "method").starts_with("Uniform"))
+      CHECK(levels.number(i, "mean_level") == levels.number(i, "parameter"));
+    CHECK(times.number(i, "runs") == 2);
+    CHECK(times.number(i, "seconds_least") > 0);
+    CHECK(times.number(i, "seconds_least") <= times.number(i, "seconds"));
+    CHECK(times.number(i, "seconds") <= times.number(i, "seconds_most"));
+    CHECK(times.number(i, "bytes") > 0);
+    CHECK(times.number(i, "estimated") == 0);
+  }
+  check_errors(errors);
+
+  const Table memory(file("memory.csv"));
+  CHECK(memory.rows.size() == 2 * (2 + 1));
+  for (std::size_t i = 0; i < memory.rows.size(); ++i) CHECK(memory.number(i, "bytes") > 1e5);
+  const std::string page = read_file(file("paper.html"));
+  for (const char* text : {"Table 1", "4.74", "118007", "1635 MB", "<svg", "frogship-a3.png", "levels.csv"})
+    CHECK(page.find(text) != std::string::npos);
+  for (const char* picture : {"frogship-picture.png", "frogship-shaolin.png", "frogship-a3.png"})
+    CHECK(read_file(file(picture)).starts_with("\x89PNG"));
+}
+
+TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench]") {
+  const Folder folder;
+  REQUIRE(folder
+              .run({"bench", "paper", "--size", "24x24", "--runs", "1", "--level", "4", "--memory", "4", "--only",
+                    "frogship", "--catmark", "--scenes", data_file("scenes"), "--report", folder / "out"})
+              .status == 0);
+  const Table times(folder / "out/times.csv"), memory(folder / "out/memory.csv");
+  for (std::size_t i = 1; i < times.rows.size(); ++i) {
+    if (times.text(i, "method") != "Uniform") continue;
+    const bool estimated = times.number(i, "parameter") >= 4;
+    CHECK(times.number(i, "estimated") == (estimated ? 1 : 0));
+    CHECK(times.text(i, "seconds").empty() == estimated);
+    if (estimated) CHECK(times.number(i, "bytes") == 4 * times.number(i - 1, "bytes"));
+  }
+  CHECK(memory.number(3, "level") == 4);
+  CHECK(memory.number(3, "estimated") == 1);
+}
+
+TEST_CASE("bench pareto plots time over error", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "pareto", data_file("torus.obj"), "--size", "40x40", "--runs", "1",
+                                      "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv");
+  CHECK(errors.rows.size() == 1 + 2 * 9 + 2 * 4);
+  check_errors(errors);
+  CHECK(times.rows.size() == errors.rows.size());
+  CHECK(read_file(folder / "out/pareto.html").find("99th percentile") != std::string::npos);
+
+  // The torus is 3 across.
+  const Table exact(folder / "out/exact.csv");
+  CHECK(exact.number(0, "hits") == 20);
+  for (const char* column : {"position_max", "across_max", "along_max"}) {
+    CHECK(exact.number(0, column) > 0);
+    CHECK(exact.number(0, column) < 1e-14);
+  }
+}
+
+TEST_CASE("bench lost counts its rays and finds none outside of the band", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "lost", data_file("torus.obj"), data_file("whale.obj"),
+                                      data_file("scenes/mirrors.json"), "--rays", "2000", "--seed", "7"});
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.text.find("PASS") != std::string::npos);
+  CHECK(split(outcome.text, '\n').size() == 1 + 3 + 1 + 1);
+  std::istringstream row(split(outcome.text, '\n')[1]);
+  std::string model;
+  double epsilon = 0, rays = 0, hits = 0;
+  row >> model >> epsilon >> rays >> hits;
+  CHECK(model == "torus");
+  CHECK(rays == 2200);
+  CHECK(hits > 1000);
+  CHECK(folder
+            .run({"bench", "lost", data_file("torus.obj"), data_file("whale.obj"), data_file("scenes/mirrors.json"),
+                  "--rays", "2000", "--seed", "7", "--a3", "--threads", "1"})
+            .status == 0);
+}
+
+TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
+  const Folder folder;
+  const std::string file = folder.write("file", ""), report = folder / "out", torus = data_file("torus.obj");
+  const std::string scenes = data_file("scenes");
+  for (const std::vector<std::string>& usage : std::vector<std::vector<std::string>>{
+           {"bench"},
+           {"bench", "paper"},
+           {"bench", "paper", "--report", report, "--only", "dragon"},
+           {"bench", "paper", "--report", report, "--size", "0x8"},
+           {"bench", "paper", "--report", report, "--runs", "0"},
+           {"bench", "paper", "--report", report, "--level", "11"},
+           {"bench", "pareto", "--report", report},
+           {"bench", "pareto", torus},
+           {"bench", "pareto", torus, "--report", report, "--unit", "0"},
+           {"bench", "pareto", torus, "--report", report, "--unit", "nan"},
+           {"bench", "lost"},
+           {"bench", "lost", torus, "--rays", "0"},
+           {"bench", "lost", torus, "--epsilon", "-1"},
+       }) {
+    CAPTURE(usage);
+    CHECK(folder.run(usage).status == 2);
+  }
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+           {"bench", "paper", "--report", report, "--scenes", folder / "nowhere"},
+           {"bench", "paper", "--report", file, "--scenes", scenes},
+           {"bench", "pareto", folder / "nothing.obj", "--report", report},
+           {"bench", "pareto", file, "--report", report},
+           {"bench", "lost", folder / "nothing.obj"},
+       }) {
+    CAPTURE(bad);
+    const Outcome outcome = folder.run(bad);
+    CHECK(outcome.status == 3);
+    CHECK(outcome.text.find("shaolin: error: ") != std::string::npos);
+  }
+}
+
+}  // namespace shaolin::test

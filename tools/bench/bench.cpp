@@ -1,0 +1,126 @@
+#include "tools/bench/bench.h"
+
+#include <memory>
+
+#include "tools/bench/lost.h"
+#include "tools/bench/paper.h"
+#include "tools/bench/pareto.h"
+#include "tools/cli/parse_into.h"
+#include "tools/cli/threads.h"
+
+namespace shaolin {
+namespace {
+
+CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value > 0 && value < 1e300
+                   ? std::string()
+                   : "'" + text + "' is not a number above 0";
+      },
+      "POSITIVE");
+}
+
+void add_size_option(CLI::App& app, ImageSize& size) {
+  app.add_option_function<std::string>("--size", parse_into(size, parse_size, "--size"), "Size in pixels")
+      ->type_name("WxH")
+      ->default_str("800x800");
+}
+
+void add_measure_options(CLI::App& app, MeasureOptions& options, int& most_level, int& threads) {
+  app.add_option("--runs", options.runs, "Runs of each time; medians are shown")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--level", most_level, "The highest level of uniform triangles")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  app.add_option_function<std::size_t>(
+         "--memory", [&options](std::size_t mebibytes) { options.most_bytes = mebibytes << 20; },
+         "What uniform triangles may occupy; levels that would need more are estimated, not run")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
+      ->type_name("MiB")
+      ->default_str("1024");
+  add_threads_option(app, threads);
+}
+
+void add_chord_options(CLI::App& app, std::optional<double>& unit, double& min_size, std::optional<double>& max_size) {
+  app.add_option("--unit", unit,
+                 "The length that an epsilon of 1 stands for (default: the paper's scenes have their own, see "
+                 "docs/bench.md; else a fiftieth of the diagonal)")
+      ->check(positive());
+  app.add_option("--min-size", min_size, "Pixels: what is smaller is not refined")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_option("--max-size", max_size, "Pixels: what is larger is refined (default: 12; 20 in Eggs'n'Bunnies)")
+      ->check(CLI::Range(0.0, 1e6));
+}
+
+void add_report_option(CLI::App& app, std::filesystem::path& report) {
+  app.add_option("--report", report, "Folder for the page, CSV files and pictures")->required()->type_name("DIR");
+}
+
+void add_paper(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<PaperOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "paper",
+      "Tables 1 to 4, Figures 14 and 15 of the paper: levels, memory, times and level maps of its three scenes");
+  add_size_option(*sub, options->size);
+  add_report_option(*sub, options->report);
+  sub->add_option("--scenes", options->scenes, "Folder of the scene files")->type_name("DIR")->capture_default_str();
+  std::vector<std::string> names;
+  for (const PaperScene& scene : paper_scenes()) names.emplace_back(scene.file);
+  sub->add_option("--only", options->only, "Some of the scenes")->check(CLI::IsMember(names))->type_name("NAME");
+  sub->add_flag("--catmark", options->quads, "The scenes' versions in quads, for Catmull-Clark");
+  add_measure_options(*sub, options->measure, options->most_level, options->threads);
+  sub->callback([options, &command] { command = [options] { return bench_paper(*options); }; });
+}
+
+void add_pareto(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<ParetoOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "pareto", "Time against error: ShaoLin and A3 over epsilon, uniform triangles by level, the exact method");
+  add_stage_options(*sub, options->model);
+  add_size_option(*sub, options->size);
+  add_report_option(*sub, options->report);
+  add_chord_options(*sub, options->unit, options->min_size, options->max_size);
+  sub->add_option("--exact-hits", options->exact_hits,
+                  "Hits of the exact method that are held against the control mesh, refined in quadruple precision")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
+      ->capture_default_str();
+  add_measure_options(*sub, options->measure, options->most_level, options->threads);
+  sub->callback([options, &command] { command = [options] { return bench_pareto(*options); }; });
+}
+
+void add_lost(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<LostOptions>();
+  CLI::App* sub = app.add_subcommand("lost",
+                                     "Throw rays at models and count hits that chords lose or make up, in and outside "
+                                     "of the band around outlines that "
+                                     "their tolerance implies; exits with 1 if there are any outside");
+  sub->add_option("MODEL", options->models, "OBJ files or scene files")->required();
+  sub->add_option("--rays", options->rays,
+                  "Rays at each model, in thirds: from cameras, incoherent, grazing; a tenth in addition is aimed at "
+                  "edges and vertices of patches")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10000000000}))
+      ->capture_default_str();
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
+  sub->add_option("--epsilon", options->epsilon, "In units")->check(positive())->capture_default_str();
+  add_chord_options(*sub, options->unit, options->min_size, options->max_size);
+  sub->add_flag("--a3", options->a3, "A3 in place of ShaoLin");
+  add_threads_option(*sub, options->threads);
+  sub->callback([options, &command] { command = [options] { return bench_lost(*options); }; });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand(
+      "bench", "Measure ShaoLin by chords, A3, uniform triangles and the exact method against each other");
+  sub->require_subcommand(1);
+  add_paper(*sub, command);
+  add_pareto(*sub, command);
+  add_lost(*sub, command);
+}
+
+}  // namespace shaolin

@@ -1,0 +1,53 @@
+#pragma once
+/// The methods that are compared, each with its parameter, behind one interface.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tools/cli/stage.h"
+
+namespace shaolin {
+
+enum class ContenderKind { exact, chord, a3, uniform, embree };
+
+/// A method and its parameter.
+struct Contender {
+  ContenderKind kind = ContenderKind::exact;
+  double epsilon = 0;    ///< of chord and a3, as the paper counts it: in units of the scene
+  int level = 0;         ///< of uniform and embree
+  ChordOptions chord{};  ///< of chord and a3; chord.epsilon is a length
+
+  bool is_adaptive() const { return kind == ContenderKind::chord || kind == ContenderKind::a3; }
+  bool is_uniform() const { return kind == ContenderKind::uniform || kind == ContenderKind::embree; }
+  double parameter() const { return is_adaptive() ? epsilon : level; }
+  std::string method() const;  ///< "ShaoLin", "A3", "Uniform", "Uniform by Embree", "ShaoLin exact"
+  std::string name() const;    ///< with the parameter: "ShaoLin, epsilon 0.01", "Uniform, level 5"
+};
+
+/// One ray's answer, in any method's terms.
+struct Answer {
+  double t = 0;
+  Vec3 normal = Vec3::Zero();  ///< unit
+  int level = 0;
+};
+
+std::optional<Answer> answer_of(const std::optional<Hit>& hit);
+
+/// A scene as a contender sees it. Queries may run concurrently.
+class Tracer {
+ public:
+  virtual ~Tracer() = default;
+
+  virtual std::optional<Answer> intersect(const Ray& ray) const = 0;
+  virtual bool occluded(const Ray& ray) const = 0;
+  /// Of what was made so far: patches, or triangles with their hierarchy.
+  virtual std::size_t bytes() const = 0;
+};
+
+/// Builds a scene of its own. Throws what its parts throw.
+std::unique_ptr<Tracer> make_tracer(const Contender& contender, const Stage& stage);
+
+/// Options of Scene for a contender; not for embree.
+SceneOptions scene_options(const Contender& contender);
+
+}  // namespace shaolin

@@ -1,0 +1,86 @@
+#include "tools/bench/csv_tables.h"
+
+#include "tools/bench/page_parts.h"
+#include "tools/cli/csv.h"
+
+namespace shaolin {
+namespace {
+
+/// Calls write(writer, measurement) for each row, after its first three fields.
+template <class Write>
+void write_table(const std::filesystem::path& file, const std::string& columns,
+                 const std::vector<NamedMeasurements>& scenes, Write write) {
+  CsvWriter writer(file, "scene,method,parameter," + columns);
+  for (const NamedMeasurements& scene : scenes)
+    for (const Measurement& one : *scene.measurements) {
+      writer.field(scene.scene).field(one.contender.method());
+      if (one.contender.kind == ContenderKind::exact)
+        writer.empty();
+      else
+        writer.field(digits(one.contender.parameter(), 6));
+      write(writer, one);
+      writer.end_row();
+    }
+  writer.commit();
+}
+
+CsvWriter& count(CsvWriter& writer, std::uint64_t value) { return writer.field(static_cast<long long>(value)); }
+
+}  // namespace
+
+void write_level_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
+  std::string columns = "mean_level";
+  for (const std::string kind : {"primary_", "shadow_"})
+    for (std::size_t level = 0; level < LevelCounts::levels; ++level) columns += "," + kind + std::to_string(level);
+  write_table(file, columns, scenes, [](CsvWriter& writer, const Measurement& one) {
+    if (one.estimated) {
+      writer.empty(1 + 2 * static_cast<int>(LevelCounts::levels));
+      return;
+    }
+    writer.field(one.levels().mean());
+    for (const LevelCounts* const counts : {&one.primary, &one.shadow})
+      for (const std::uint64_t hits : counts->hits) count(writer, hits);
+  });
+}
+
+void write_time_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
+  write_table(file, "runs,seconds,seconds_least,seconds_most,again,bytes,estimated,occluded_differs", scenes,
+              [](CsvWriter& writer, const Measurement& one) {
+                count(writer, one.seconds.size());
+                const Spread seconds = spread(one.seconds);
+                if (one.seconds.empty())
+                  writer.empty(4);
+                else
+                  writer.field(seconds.median).field(seconds.least).field(seconds.most).field(spread(one.again).median);
+                count(writer, one.bytes).field(one.estimated ? 1 : 0);
+                count(writer, one.occluded_differs);
+              });
+}
+
+void write_error_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
+  write_table(
+      file,
+      "rays,hits,distance_median,distance_p99,distance_max,normal_median,normal_p99,normal_max,lost,ghosts,"
+      "farther,nearer,lost_outside,ghosts_outside",
+      scenes, [](CsvWriter& writer, const Measurement& one) {
+        if (one.estimated) {
+          writer.empty(14);
+          return;
+        }
+        const ErrorFigures& errors = one.errors;
+        count(writer, errors.rays);
+        count(writer, errors.hits);
+        for (const Quantiles* const of : {&errors.distance, &errors.normal})
+          writer.field(of->median).field(of->p99).field(of->max);
+        count(writer, errors.lost);
+        count(writer, errors.ghosts);
+        if (!one.contender.is_adaptive()) {
+          writer.empty(4);
+          return;
+        }
+        for (const std::size_t value : {errors.farther, errors.nearer, errors.lost_outside, errors.ghosts_outside})
+          count(writer, value);
+      });
+}
+
+}  // namespace shaolin

@@ -1,0 +1,28 @@
+#pragma once
+/// Measurements as CSV files.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/bench/measure.h"
+
+namespace shaolin {
+
+/// Measurements of one scene, by name.
+struct NamedMeasurements {
+  std::string scene;
+  const std::vector<Measurement>* measurements;
+};
+
+/// scene,method,parameter,mean_level,primary_0..primary_15,shadow_0..shadow_15
+void write_level_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes);
+
+/// scene,method,parameter,runs,seconds,seconds_least,seconds_most,again,bytes,estimated,occluded_differs: medians of
+/// runs, `again` of the same rays once more; empty where nothing was timed.
+void write_time_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes);
+
+/// scene,method,parameter,rays,hits,distance_median,..._p99,..._max,normal_...,lost,ghosts,farther,nearer,lost_outside,
+/// ghosts_outside: lengths of the scene's, angles in rad; the last four are empty but for chord and a3.
+void write_error_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes);
+
+}  // namespace shaolin

@@ -1,0 +1,40 @@
+#include "tools/bench/silhouette_band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace shaolin {
+
+double band_width(const ChordOptions& options, const Footprint& footprint, double distance) {
+  return 4.0 / 3.0 * std::max(options.epsilon, options.min_size * footprint.at(distance));
+}
+
+SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr int directions = 8;
+  const double length = ray.direction.norm();
+  const Vec3 along = ray.direction / length;
+  const Vec3 right = along.unitOrthogonal(), up = along.cross(right);
+  SilhouetteBand band{.nearest = infinity, .farthest = -infinity};
+  const auto ask = [&](const Ray& shifted) {
+    const std::optional<Hit> hit = exact.intersect(shifted);
+    band.any_miss |= !hit;
+    if (!hit) return;
+    band.nearest = std::min(band.nearest, hit->t * length);
+    band.farthest = std::max(band.farthest, hit->t * length);
+  };
+  for (const double share : {1.0, 0.5, 0.25, 0.125})
+    for (int i = 0; i < directions; ++i) {
+      const double angle = 2 * std::numbers::pi * i / directions;
+      Ray shifted = ray;
+      shifted.origin += share * width * (std::cos(angle) * right + std::sin(angle) * up);
+      ask(shifted);
+      shifted.tmin -= width / length;
+      shifted.tmax += width / length;
+      ask(shifted);
+    }
+  return band;
+}
+
+}  // namespace shaolin

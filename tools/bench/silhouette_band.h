@@ -1,0 +1,39 @@
+#pragma once
+/// Where an answer by chords may differ from the exact one in kind: near outlines.
+#include <optional>
+
+#include "intersect/scene.h"
+
+namespace shaolin {
+
+/// The width of the band: how far the chords that chord and a3 stop at may lie from the limit surface, seen across a
+/// ray, at a distance along it (a length of the scene's).
+///
+/// Refinement stops where the chord's edges are off the limit by less than epsilon |cos| <= epsilon at their middles,
+/// or where the longest chord is seen under min_size pixels, and then the patch is off its chord by less than that. In
+/// between, the edges' middles say how far the inside is off: the deviation of a patch of second order is 4 sum
+/// (b_i b_j d_ij) over its edges' deviations d_ij in barycentric coordinates b, at most 4/9 (3 d) = 4/3 d. Patches
+/// below start patches are of second order but for terms that halve with each level.
+double band_width(const ChordOptions& options, const Footprint& footprint, double distance);
+
+/// What exact rays answer that run beside a ray, parallel to it, at up to `width` across: in eight directions, at 1,
+/// 1/2, 1/4 and 1/8 of the width. Their intervals are the ray's, and the ray's with a width more at either end, for a
+/// surface may also begin where an interval does.
+struct SilhouetteBand {
+  bool any_miss = false;
+  double nearest, farthest;  ///< of all hits, as lengths along the ray; nearest > farthest if there are none
+
+  /// True if the answer (a length along the ray, or a miss) is one that a shift by `width` explains: a miss if any of
+  /// these rays misses, a hit if it lies between their hits, `width` more at either end. Where the surface goes on to
+  /// all sides, hits lie within its slope there, and misses are not explained; at an outline all between the sheet and
+  /// what is behind it is.
+  bool explains(const std::optional<double>& distance, double width) const {
+    return distance ? nearest - width <= *distance && *distance <= farthest + width : any_miss;
+  }
+};
+
+/// O(64) queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
+/// explain the answer.
+SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width);
+
+}  // namespace shaolin

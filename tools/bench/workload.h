@@ -1,0 +1,25 @@
+#pragma once
+/// The rays that all methods are measured by.
+#include <vector>
+
+#include "intersect/scene.h"
+#include "tools/cli/camera.h"
+#include "tools/cli/look.h"
+
+namespace shaolin {
+
+/// A picture's primary rays and, from the exact method's hits, its shadow rays: the same for every method, so that all
+/// do the same work. What a mirror reflects is left out.
+struct Workload {
+  std::vector<Ray> primary;  ///< row by row, one through each pixel's centre; directions are unit
+  std::vector<Ray> shadow;   ///< to each light that a hit's side of the surface looks at; they end there, at t = 1
+
+  std::size_t size() const { return primary.size() + shadow.size(); }
+};
+
+/// A shadow ray starts one pixel's width (at its hit) off the surface, on the side that is seen: a method that answers
+/// with chords is off the limit surface by parts of a pixel, and would shade itself. Its footprint is the pixel's at
+/// the hit and widens as the primary ray's does. Without lights in `look` there is the key light of pictures.
+Workload make_workload(const Scene& exact, const View& view, const Look& look);
+
+}  // namespace shaolin

@@ -1,0 +1,13 @@
+#pragma once
+/// From a scene and a view to an image.
+#include "intersect/scene.h"
+#include "tools/cli/image.h"
+#include "tools/cli/look.h"
+
+namespace shaolin {
+
+/// One ray and its shading per pixel, in parallel; the image does not depend on the number of threads. Throws what the
+/// scene's queries throw. `options` are those that the scene's objects were made with.
+Image render_image(const Scene& scene, const View& view, const Look& look, const SceneOptions& options = {});
+
+}  // namespace shaolin
