@@ -6,9 +6,19 @@ namespace shaolin {
 
 namespace {
 
+/// (Written so that a NaN fails.)
+void check(const ChordOptions& options) {
+  if (!(options.epsilon > 0))
+    throw InputError("epsilon " + std::to_string(options.epsilon) + " is out of range; expected a positive length");
+  if (!(options.min_size >= 0 && options.max_size >= options.min_size))
+    throw InputError("sizes " + std::to_string(options.min_size) + " and " + std::to_string(options.max_size) +
+                     " are out of range; expected 0 <= min_size <= max_size");
+}
+
 const SceneOptions& checked(const SceneOptions& options) {
   if (options.method == Method::uniform && (options.level < 1 || options.level > 10))
     throw InputError("tessellation level " + std::to_string(options.level) + " is out of range; expected 1 to 10");
+  if (options.method == Method::chord || options.method == Method::a3) check(options.chord);
   return options;
 }
 

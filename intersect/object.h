@@ -6,6 +6,7 @@
 
 #include "../schemes/control_mesh.h"
 #include "box.h"
+#include "chord_options.h"
 #include "counters.h"
 #include "ray.h"
 
@@ -15,22 +16,9 @@ class LimitSurface;
 class SchemeMasks;
 
 /// What rays are intersected with: the limit surface, to rounding error; or, for comparison, what Mueller et al. 2003
-/// measured: chord triangles where their algorithm stops refining (chord.h), the same by Woodward's tests (a3.h), or
-/// the triangles of a tessellation, made when a ray first comes near (uniform.h).
+/// measured: chord triangles where their algorithm stops refining (chord_finish.h), the same by Woodward's tests
+/// (a3_finish.h), or the triangles of a tessellation, made when a ray first comes near (uniform.h).
 enum class Method { exact, chord, a3, uniform };
-
-/// Where chord and a3 stop refining (section 7 of the paper). A patch's projected size is that of its longest chord,
-/// seen across the ray at the distance of its centre, in pixels: in footprints of the ray (see Footprint; a ray without
-/// one knows no pixels, and epsilon alone decides).
-struct ChordOptions {
-  double epsilon = 0.01;  ///< bound of chord deviation / |cosine of chord normal and ray|; a length of the scene's, > 0
-  double min_size = 2;    ///< pixels; what is smaller is not refined; >= 0
-  double max_size = 12;   ///< pixels; what is larger is refined whatever epsilon says; >= min_size
-
-  /// Parts of the algorithm that a test or a measurement leaves out to show what they are for.
-  bool w_cases = true, gap_polygons = true, border_areas = true, valid_patches = true;
-  bool stand_in_borders = false;  ///< hulls of the paper's c(t) beside irregular vertices, instead of proven bounds
-};
 
 struct SceneOptions {
   Method method = Method::exact;

@@ -8,14 +8,9 @@
 #include "box_space.h"
 #include "limit_bounds.h"
 #include "net.h"
+#include "tree_totals.h"
 
 namespace shaolin {
-
-/// Bytes and splits over all trees of a scene.
-struct TreeTotals {
-  std::atomic<std::uint64_t> bytes{0};
-  std::atomic<std::uint64_t> patches_split{0};
-};
 
 /// A patch with the affine map of its parameters to those of the tree's root. Regular patches hold their polynomial's
 /// Bezier points, irregular ones a configuration and control points; either way the limit lies in the points' hull

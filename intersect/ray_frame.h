@@ -36,6 +36,9 @@ class RayFrame {
     }
   }
 
+  /// A direction in the ray's coordinates.
+  Vec3 turn(const Vec3& way) const { return {rp_.dot(way), cp_.dot(way), direction_.dot(way)}; }
+
   /// The bounds of points in the ray's coordinates.
   Box hull(const Net& points) const {
     Net projected;

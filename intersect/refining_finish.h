@@ -1,8 +1,8 @@
 #pragma once
 /// The finish for surfaces without polynomials: the first point of a patch on a ray, by local refinement.
 #include "counters.h"
-#include "exact_finish.h"
 #include "limit_bounds.h"
+#include "newton_finish.h"
 
 namespace shaolin {
 
@@ -16,7 +16,7 @@ namespace shaolin {
 template <Scheme S>
 class RefiningFinish {
  public:
-  /// As ExactFinish.
+  /// As NewtonFinish.
   RefiningFinish(double error, double near, double far, bool far_is_hit, RayCounters& counters)
       : error_(error), near_(near), has_hit_(far_is_hit), counters_(counters) {
     best_.distance = far;
@@ -34,7 +34,7 @@ class RefiningFinish {
  private:
   using D = Domain<S::face_kind>;
 
-  /// As in ExactFinish: where a ray runs along the surface, cells become points sooner after this many.
+  /// As in NewtonFinish: where a ray runs along the surface, cells become points sooner after this many.
   static constexpr int patience = 512;
 
   /// A cell's parameters p stand for origin + scale * p.

@@ -1,5 +1,8 @@
 #pragma once
 /// The definition of make_scheme_object().
+#include "a3_finish.h"
+#include "chord_finish.h"
+#include "exact_finish.h"
 #include "scheme_object.h"
 #include "shaolin.h"
 #include "uniform.h"
@@ -34,9 +37,20 @@ class SchemeObject final : public Object {
 
 template <Scheme S>
 std::shared_ptr<const Object> make_scheme_object(ControlMesh mesh, const S& scheme, const SceneOptions& options) {
-  if (options.method == Method::uniform)
-    return std::make_shared<detail::SchemeObject<S, Uniform<S>>>(std::move(mesh), scheme, options.level);
-  return std::make_shared<detail::SchemeObject<S, ShaoLin<S, ExactFinish>>>(std::move(mesh), scheme);
+  const auto make = [&]<class Intersector>(const auto&... more) -> std::shared_ptr<const Object> {
+    return std::make_shared<detail::SchemeObject<S, Intersector>>(std::move(mesh), scheme, more...);
+  };
+  switch (options.method) {
+    case Method::chord:
+      return make.template operator()<ShaoLin<S, ChordFinish>>(ChordFinish<S>(options.chord));
+    case Method::a3:
+      return make.template operator()<ShaoLin<S, A3Finish>>(A3Finish<S>(options.chord));
+    case Method::uniform:
+      return make.template operator()<Uniform<S>>(options.level);
+    case Method::exact:
+      break;
+  }
+  return make.template operator()<ShaoLin<S, ExactFinish>>();
 }
 
 }  // namespace shaolin

@@ -47,16 +47,45 @@ CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
-void add_method_option(CLI::App& app, SceneOptions& options) {
-  app.add_option_function<int>(
-         "--uniform",
-         [&options](int level) {
-           options.method = Method::uniform;
-           options.level = level;
-         },
-         "For comparison: rays meet triangles in place of the limit surface, of a tessellation at this level")
-      ->check(CLI::Range(1, 10))
-      ->type_name("LEVEL");
+void add_method_options(CLI::App& app, SceneOptions& options) {
+  CLI::Option* const uniform =
+      app.add_option_function<int>(
+             "--uniform",
+             [&options](int level) {
+               options.method = Method::uniform;
+               options.level = level;
+             },
+             "For comparison: rays meet triangles in place of the limit surface, of a tessellation at this level")
+          ->check(CLI::Range(1, 10))
+          ->type_name("LEVEL");
+  const auto add_chords = [&](const std::string& name, Method method, const std::string& what) {
+    return app
+        .add_option_function<double>(
+            name,
+            [&options, method](double epsilon) {
+              options.method = method;
+              options.chord.epsilon = epsilon;
+            },
+            what)
+        ->check(CLI::PositiveNumber)
+        ->type_name("EPSILON")
+        ->excludes(uniform);
+  };
+  CLI::Option* const chord =
+      add_chords("--chord", Method::chord,
+                 "For comparison: rays meet chord faces, refined until they are this near (a length), by the ShaoLin "
+                 "algorithm as published");
+  CLI::Option* const a3 =
+      add_chords("--a3", Method::a3, "For comparison: the same chord faces by the algorithm that it was compared with");
+  a3->excludes(chord);
+  const auto add_size = [&](const std::string& name, double& size, const std::string& what) {
+    app.add_option(name, size, "With --chord or --a3: " + what + ", in pixels")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("PIXELS")
+        ->capture_default_str();
+  };
+  add_size("--min-size", options.chord.min_size, "chord faces smaller than this are not refined");
+  add_size("--max-size", options.chord.max_size, "chord faces larger than this are refined");
 }
 
 LoadedModel load_model(const ModelOptions& options) {

@@ -19,8 +19,9 @@ struct ModelOptions {
   std::filesystem::path plugin;  ///< a shared library with a scheme, see load_plugin(); empty: none
 };
 
-/// Adds --uniform LEVEL, which makes it a scene of triangles.
-void add_method_option(CLI::App& app, SceneOptions& options);
+/// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces, with
+/// --min-size and --max-size.
+void add_method_options(CLI::App& app, SceneOptions& options);
 
 /// Accepts the names of the built-in schemes.
 CLI::Validator is_scheme_name();

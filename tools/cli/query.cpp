@@ -99,7 +99,7 @@ void add_query(CLI::App& app, Command& command) {
   const auto options = std::make_shared<QueryOptions>();
   CLI::App* sub = app.add_subcommand("query", "Intersect rays from a CSV file with the limit surface");
   add_stage_options(*sub, options->model);
-  add_method_option(*sub, options->scene);
+  add_method_options(*sub, options->scene);
   sub->add_option("--rays", options->rays,
                   "CSV file with the columns ox,oy,oz,dx,dy,dz[,tmin,tmax]; a header is optional. Directions need not "
                   "be unit; t is in units of their length")

@@ -68,7 +68,7 @@ void render_in_arena(const RenderOptions& options) {
 
   OutputFiles files(options);
   const View view(options.camera ? *options.camera : choose_camera(stage, scene, options.size), options.size);
-  const Image image = render_image(scene, view, stage.scene.look);
+  const Image image = render_image(scene, view, stage.scene.look, options.scene);
   stats.render_seconds = stopwatch.lap();
   stats.camera = to_string(view.camera());
   stats.statistics = scene.statistics();
@@ -95,7 +95,7 @@ void add_render(CLI::App& app, Command& command) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* sub = app.add_subcommand("render", "Render a picture of the limit surface");
   add_stage_options(*sub, options->model);
-  add_method_option(*sub, options->scene);
+  add_method_options(*sub, options->scene);
   sub->add_option("-o,--output", options->exr,
                   "OpenEXR file with the channels R G B A (linear), Z (distance from the eye), N.X/Y/Z, P.X/Y/Z, "
                   "uv.U/V, face and level (UINT; 4294967295 where nothing was hit); of scenes, instance, too")

@@ -43,9 +43,9 @@ Pixel render_pixel(const Scene& scene, const Shader& shader, const std::optional
 }  // namespace
 
 // In square tiles: neighbouring rays refine the same patches.
-Image render_image(const Scene& scene, const View& view, const Look& look) {
+Image render_image(const Scene& scene, const View& view, const Look& look, const SceneOptions& options) {
   Image image(view.size());
-  const Shader shader(scene, view, look);
+  const Shader shader(scene, view, look, options);
   const int columns = (image.size.width + tile_side - 1) / tile_side;
   const int rows = (image.size.height + tile_side - 1) / tile_side;
   Progress progress(static_cast<std::size_t>(columns) * rows);

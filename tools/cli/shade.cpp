@@ -13,6 +13,20 @@ const Vec3 ground_color(0.20, 0.17, 0.15);
 constexpr double gloss = 0.10;
 constexpr double gloss_exponent = 48;
 
+/// The largest principal curvature, or 0 where derivatives are missing: of the shape operator from both fundamental
+/// forms (do Carmo 1976, section 3.3).
+double largest_curvature(const LimitSample& sample) {
+  if (!sample.derivatives) return 0;
+  const Derivatives& d = *sample.derivatives;
+  Eigen::Matrix2d first, second;
+  first << d.du.squaredNorm(), d.du.dot(d.dv), d.du.dot(d.dv), d.dv.squaredNorm();
+  second << sample.normal.dot(d.duu), sample.normal.dot(d.duv), sample.normal.dot(d.duv), sample.normal.dot(d.dvv);
+  const Eigen::Matrix2d shape = first.inverse() * second;
+  const double mean = 0.5 * shape.trace();
+  const double curvature = std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - shape.determinant()));
+  return std::isfinite(curvature) ? curvature : 0;
+}
+
 }  // namespace
 
 PointLight key_light(const View& view) {
@@ -20,19 +34,31 @@ PointLight key_light(const View& view) {
   return {view.camera().eye + distance * (0.75 * view.up() - 0.6 * view.right()), key_color};
 }
 
-Shader::Shader(const Scene& scene, const View& view, Look look)
+Shader::Seen::Seen(const Ray& ray, const Hit& hit)
+    : position(hit.sample.position),
+      normal(hit.sample.normal.dot(ray.direction) <= 0 ? hit.sample.normal : Vec3(-hit.sample.normal)),
+      width(ray.footprint.at(hit.t * ray.direction.norm())),
+      curvature(largest_curvature(hit.sample)) {}
+
+Shader::Shader(const Scene& scene, const View& view, Look look, const SceneOptions& options)
     : scene_(scene), look_(std::move(look)), up_(view.up()) {
   if (look_.lights.empty()) look_.lights.push_back(key_light(view));
   const Box bounds = scene.bounds();
   // Far above the rounding of a hit's position, far below what a pixel shows.
   offset_ = 1e-6 * (bounds.upper - bounds.lower).norm();
+  if (options.method == Method::chord || options.method == Method::a3) {
+    // Both rays may be off the surface by as much, one to each side.
+    offset_ += 2 * options.chord.epsilon;
+    pixels_ = options.chord.min_size;
+  }
 }
 
-bool Shader::lit(const PointLight& light, const Vec3& position, const Vec3& normal) const {
+bool Shader::lit(const PointLight& light, const Seen& seen) const {
   Ray shadow_ray;
-  shadow_ray.origin = position + offset_ * normal;
+  shadow_ray.origin = start(seen);
   shadow_ray.direction = light.position - shadow_ray.origin;
   shadow_ray.tmax = 1;
+  shadow_ray.footprint.width = seen.width;
   return !scene_.occluded(shadow_ray);
 }
 
@@ -41,32 +67,32 @@ Vec3 Shader::fill(const Vec3& direction) const {
   return skyward * sky_color + (1 - skyward) * ground_color;
 }
 
-Vec3 Shader::reflection(const Ray& ray, const Vec3& position, const Vec3& normal, int reflections_left) const {
+/// A mirror of curvature k turns a ray by 2 k a length: that much more the footprint grows behind it.
+Vec3 Shader::reflection(const Ray& ray, const Seen& seen, int reflections_left) const {
   Ray reflected;
-  reflected.origin = position + offset_ * normal;
-  reflected.direction = (ray.direction - 2 * ray.direction.dot(normal) * normal).normalized();
+  reflected.origin = start(seen);
+  reflected.direction = (ray.direction - 2 * ray.direction.dot(seen.normal) * seen.normal).normalized();
+  reflected.footprint.width = seen.width;
+  reflected.footprint.growth = ray.footprint.growth + 2 * seen.curvature * seen.width;
   if (const std::optional<Hit> hit = scene_.intersect(reflected)) return color(reflected, *hit, reflections_left - 1);
   return look_.background ? *look_.background : fill(reflected.direction);
 }
 
 Vec3 Shader::color(const Ray& ray, const Hit& hit, int reflections_left) const {
   const Material& material = look_.material(hit.instance);
-  const Vec3& position = hit.sample.position;
-  const bool front = hit.sample.normal.dot(ray.direction) <= 0;
-  const Vec3 normal = front ? hit.sample.normal : Vec3(-hit.sample.normal);
-
-  Vec3 color = material.color.cwiseProduct(fill(normal));
+  const Seen seen(ray, hit);
+  Vec3 color = material.color.cwiseProduct(fill(seen.normal));
   for (const PointLight& light : look_.lights) {
-    const Vec3 to_light = (light.position - position).normalized();
-    const double incidence = normal.dot(to_light);
-    if (incidence > 0 && lit(light, position, normal)) {
+    const Vec3 to_light = (light.position - seen.position).normalized();
+    const double incidence = seen.normal.dot(to_light);
+    if (incidence > 0 && lit(light, seen)) {
       const Vec3 halfway = (to_light - ray.direction.normalized()).normalized();
-      const double highlight = gloss * std::pow(std::max(0.0, normal.dot(halfway)), gloss_exponent);
+      const double highlight = gloss * std::pow(std::max(0.0, seen.normal.dot(halfway)), gloss_exponent);
       color += incidence * light.color.cwiseProduct(material.color) + highlight * light.color;
     }
   }
   if (material.mirror > 0 && reflections_left > 0)
-    color += material.mirror * (reflection(ray, position, normal, reflections_left) - color);
+    color += material.mirror * (reflection(ray, seen, reflections_left) - color);
   return color;
 }
 

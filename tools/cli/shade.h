@@ -19,25 +19,39 @@ class Shader {
   /// A ray is reflected this often; the mirror after that shows its own colour alone.
   static constexpr int most_reflections = 4;
 
-  /// `scene` must outlive the shader.
-  Shader(const Scene& scene, const View& view, Look look = {});
+  /// `scene` must outlive the shader; `options` are those that its objects were made with. Where rays meet chord faces,
+  /// another ray meets others, nearer or farther by what the criteria allow: so much farther off a surface its shadow
+  /// and mirror rays start.
+  Shader(const Scene& scene, const View& view, Look look = {}, const SceneOptions& options = {});
 
   /// Linear colour of the surface at a hit of `ray`; casts at most one shadow ray for each light there and wherever its
   /// reflection leads. May be called concurrently.
   std::array<float, 3> shade(const Ray& ray, const Hit& hit) const;
 
  private:
+  /// A point of the surface as a ray sees it.
+  struct Seen {
+    Vec3 position;
+    Vec3 normal;   ///< on the side of the surface that is seen
+    double width;  ///< of the ray's footprint
+    double curvature;
+
+    Seen(const Ray& ray, const Hit& hit);
+  };
+
   Vec3 color(const Ray& ray, const Hit& hit, int reflections_left) const;
-  Vec3 reflection(const Ray& ray, const Vec3& position, const Vec3& normal, int reflections_left) const;
+  Vec3 reflection(const Ray& ray, const Seen& seen, int reflections_left) const;
   /// The light from all around that comes against a direction.
   Vec3 fill(const Vec3& direction) const;
-  /// `normal` looks to the side of the surface that is lit.
-  bool lit(const PointLight& light, const Vec3& position, const Vec3& normal) const;
+  bool lit(const PointLight& light, const Seen& seen) const;
+  /// Where shadow and mirror rays start.
+  Vec3 start(const Seen& seen) const { return seen.position + (offset_ + pixels_ * seen.width) * seen.normal; }
 
   const Scene& scene_;
   Look look_;  ///< with the key light, if there are no others
   Vec3 up_;
-  double offset_;  ///< rays from a surface start this far off it
+  double offset_;  ///< rays from a surface start this far off it, and so many pixels more
+  double pixels_ = 0;
 };
 
 }  // namespace shaolin

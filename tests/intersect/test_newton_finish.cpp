@@ -1,5 +1,5 @@
-// The exact finish on patches made by hand, in a ray's frame: x and y vanish on the ray, z is the distance along it.
-#include "intersect/exact_finish.h"
+// Newton finish on patches made by hand, in a ray's frame: x and y vanish on the ray, z is the distance along it.
+#include "intersect/newton_finish.h"
 
 #include <functional>
 #include <optional>
@@ -25,7 +25,7 @@ struct Interval {
 template <class Bezier>
 std::optional<PatchHit> solve(const Bezier& patch, const Interval& interval = {}) {
   RayCounters counters;
-  ExactFinish<Bezier> finish(error, interval.near, interval.far, interval.far_is_hit, counters);
+  NewtonFinish<Bezier> finish(error, interval.near, interval.far, interval.far_is_hit, counters);
   if (!finish.solve(Net(patch))) return {};
   return finish.hit();
 }

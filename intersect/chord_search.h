@@ -1,0 +1,149 @@
+#pragma once
+/// What ChordFinish and A3Finish have in common: start patches with their trees, the criteria that end refinement, and
+/// the ray's test of chord faces.
+#include <optional>
+#include <vector>
+
+#include "approach.h"
+#include "chord_options.h"
+#include "chord_plane.h"
+#include "chord_tree.h"
+#include "ray_frame.h"
+#include "triangle.h"
+
+namespace shaolin {
+
+/// Where a ray meets chord faces: positions and normals are interpolated from the corners' limits.
+struct ChordHit {
+  double distance;
+  Vec3 position;
+  Vec3 normal;   ///< unit
+  Parameter at;  ///< in the face's patch
+  int level;     ///< of the leaf
+
+  Hit hit(int face, int sub, FaceKind kind) const {
+    const Parameter inside =
+        kind == FaceKind::triangle ? Domain<FaceKind::triangle>::nearest(at) : Domain<FaceKind::quad>::nearest(at);
+    Hit hit;
+    hit.at = {face, sub, inside.x(), inside.y()};
+    hit.level = level;
+    hit.sample = {position, normal, {}};
+    return hit;
+  }
+};
+
+/// A corner of a chord face with its place in the face's patch.
+struct ChordPoint {
+  const ChordCorner* corner;
+  Parameter at;
+};
+
+/// A ray on its way through a part of a start patch.
+template <Scheme S>
+class ChordSearch {
+ public:
+  using Node = ChordNode<S>;
+  static constexpr std::size_t sides = Node::sides;
+
+  ChordSearch(const Vec3& plane_normal, const Box& bounds, const Approach& approach, const ChordOptions& options,
+              const BorderHulls& hulls, TreeTotals& totals)
+      : approach_(approach),
+        frame_(approach.ray, plane_normal),
+        triangle_ray_(approach.ray),
+        error_(frame_.error(bounds)),
+        options_(options),
+        hulls_(hulls),
+        totals_(totals) {}
+
+  std::optional<ChordHit> found;
+
+ protected:
+  /// The criteria of section 7.1, combined as there; a function of the ray and the patch alone. Without a footprint
+  /// there are no pixels: then epsilon decides, and a patch whose chords are all shorter than epsilon is a leaf, for
+  /// what it hides is no larger. Beyond a depth bound, where limit points of neighbours are as near as their rounding,
+  /// refinement ends, and is counted.
+  bool is_refined(const Node& node) const {
+    constexpr int most_splits = 24;
+    const Footprint& footprint = approach_.footprint;
+    const double epsilon = options_.epsilon * footprint.unit;
+    const bool knows_pixels = footprint.width > 0 || footprint.growth > 0;
+    if (knows_pixels) {
+      const double size = projected_size(node), pixel = std::max(0.0, footprint.at(distance(node)));
+      if (size < options_.min_size * pixel) return false;
+      if (size > options_.max_size * pixel) return node.splits() < most_splits || is_too_deep();
+    } else if (node.longest_chord() < epsilon) {
+      return false;
+    }
+    if (node.splits() >= most_splits) return is_too_deep();
+    const typename Node::Middles& middles = node.middles(totals_);
+    const double deviation =
+        options_.end_normals ? std::max(middles.deviation, middles.end_deviation) : middles.deviation;
+    const double silhouette = std::abs(middles.normal.dot(approach_.ray.direction));
+    return !(deviation <= epsilon * silhouette);
+  }
+
+  const typename Node::Children& children(const Node& node) const { return node.children(hulls_, totals_); }
+
+  /// Meets the chord face: a triangle, or a quad as two on its limit points.
+  bool meet_chord_face(const Node& node) {
+    ++approach_.counters.chord_tests;
+    bool is_met = meet({point(node, 0), point(node, 1), point(node, 2)}, node.level());
+    if constexpr (sides == 4) is_met |= meet({point(node, 0), point(node, 2), point(node, 3)}, node.level());
+    return is_met;
+  }
+
+  static ChordPoint point(const Node& node, std::size_t k) { return {&node.corner(k), node.corner_parameter(k)}; }
+
+  /// Takes the point where the ray meets a triangle, if it is the nearest so far.
+  bool meet(const std::array<ChordPoint, 3>& corners, int level) {
+    const auto meeting = triangle_ray_.meet(corners[0].corner->position, corners[1].corner->position,
+                                            corners[2].corner->position, approach_.ray.near, approach_.far());
+    if (!meeting) return false;
+    ChordHit hit{meeting->distance, Vec3::Zero(), Vec3::Zero(), Parameter::Zero(), level};
+    for (std::size_t i = 0; i < 3; ++i) {
+      hit.position += meeting->weights[i] * corners[i].corner->position;
+      hit.normal += meeting->weights[i] * corners[i].corner->normal;
+      hit.at += meeting->weights[i] * corners[i].at;
+    }
+    if (hit.normal.isZero(0)) {
+      const Vec3& a = corners[0].corner->position;
+      hit.normal = (corners[1].corner->position - a).cross(corners[2].corner->position - a);
+    }
+    take(hit);
+    return true;
+  }
+
+  void take(ChordHit hit) {
+    hit.normal = hit.normal.stableNormalized();
+    found = hit;
+    approach_.shorten(hit.distance);
+  }
+
+  Approach approach_;
+  RayFrame frame_;
+  TriangleRay triangle_ray_;
+  double error_;  ///< of coordinates in the frame
+  const ChordOptions& options_;
+  BorderHulls hulls_;
+  TreeTotals& totals_;
+
+ private:
+  bool is_too_deep() const {
+    ++approach_.counters.depth_bounds;
+    return false;
+  }
+
+  /// The length of the longest chord, seen along the ray.
+  double projected_size(const Node& node) const {
+    return node.longest_chord([&](const Vec3& chord) -> Vec3 { return chord.cross(approach_.ray.direction); });
+  }
+
+  /// Of the chord face's centre along the ray.
+  double distance(const Node& node) const {
+    Vec3 centre = Vec3::Zero();
+    for (std::size_t k = 0; k < sides; ++k) centre += node.corner(k).position / sides;
+    return approach_.ray.direction.dot(centre - approach_.ray.origin);
+  }
+};
+
+}  // namespace shaolin

@@ -1,0 +1,299 @@
+#pragma once
+/// The first point of a polynomial patch on a ray, by subdivision and Newton steps in double precision.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "../schemes/domain.h"
+#include "counters.h"
+#include "flatten.h"
+#include "net.h"
+
+namespace shaolin {
+
+/// A point of a patch on the ray: its parameter in the patch and its distance along the ray.
+struct PatchHit {
+  Parameter at;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Finds the nearest zero of (x, y) with z in [near, far] on a Bezier patch given in a ray's frame (x, y: distances
+/// from RP and CP, z: distance along the ray).
+///
+/// A cell of the parameter domain is dropped only on proof: its hull lies to one side of the ray, also in coordinates
+/// in which the cell is nearly a unit square, or it lies beyond the nearest hit so far. Where the map (x, y) is proven
+/// one to one on the cell, Newton steps projected into the cell find the zero or prove that there is none; elsewhere
+/// the cell is split into four, nearest first. Points within `error` of the ray count as on it: coordinates carry that
+/// much rounding. So of two patches that share an edge, at least one reports a ray that passes through the edge.
+template <class Bezier>
+class NewtonFinish {
+ public:
+  /// `far_is_hit` says that `far` is the distance of a hit found elsewhere; a hit here must then be nearer by more than
+  /// the error to count. (Where a surface runs along a ray there is otherwise no end of equally near ones.)
+  NewtonFinish(double error, double near, double far, bool far_is_hit, RayCounters& counters)
+      : error_(error), near_(near), has_hit_(far_is_hit), counters_(counters) {
+    best_.distance = far;
+  }
+
+  /// True if a hit was found; then hit() is the nearest.
+  bool solve(const Net& patch) {
+    visit(patch, Parameter::Zero(), Parameter::Ones());
+    return found_;
+  }
+  const PatchHit& hit() const { return best_; }
+
+ private:
+  using D = typename Bezier::DomainType;
+  using Matrix = Eigen::Matrix2d;
+
+  /// Cells this small are points: halving further changes no double in [1/2, 1].
+  static constexpr double smallest = 0x1p-52;
+  /// A ray that runs within a surface, or along a fold, meets it in a curve; the cells around a curve are without
+  /// number. Past this many, cells count as points once they are below 1e-12 of the patch, and after each as many again
+  /// a hit must be nearer by twice as much to count, up to 16 times the error.
+  static constexpr int patience = 512;
+  static constexpr double smallest_out_of_patience = 0x1p-42;
+  /// Slopes against the ray count up to here: a steeper cell is looked into, though its distances are less certain. It
+  /// may lie beside straight lines along the ray, whose near end is to be found.
+  static constexpr double steepest = 1e4;
+
+  enum class Verdict { none, found, unknown };
+
+  /// A cell's parameters p stand for origin + scale * p, per coordinate.
+  void visit(const Net& cell, const Parameter& origin, const Parameter& scale);
+  void split(const Net& cell, const Parameter& origin, const Parameter& scale);
+  int long_axis(const Net& cell, const Parameter& scale) const;
+  bool in_band(const Range& x, const Range& y) const {
+    return std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
+  }
+  bool is_no_nearer(const Net& cell, const Matrix& jacobian) const;
+  double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
+  Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
+  static double corner_mean(const std::array<double, 16>& values);
+  void accept(const Parameter& at, double distance, const Parameter& origin, const Parameter& scale);
+
+  double impatience() const { return std::exp2(std::min(4, cells_ / patience)); }
+
+  /// The distance past which nothing is of interest.
+  double horizon() const { return best_.distance + (has_hit_ ? -impatience() * error_ : error_); }
+
+  double error_;
+  double near_;
+  bool has_hit_;  ///< best_.distance is that of a hit
+  RayCounters& counters_;
+  PatchHit best_;
+  bool found_ = false;
+  int cells_ = 0;
+};
+
+template <class Bezier>
+void NewtonFinish<Bezier>::accept(const Parameter& at, double distance, const Parameter& origin,
+                                  const Parameter& scale) {
+  // A hit counts as within the interval if rounding alone could have moved it out.
+  if (distance < near_ - error_ || distance > horizon()) return;
+  best_ = {origin + scale.cwiseProduct(at), distance};
+  found_ = has_hit_ = true;
+}
+
+template <class Bezier>
+SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Parameter& origin, const Parameter& scale) {
+  ++counters_.cells;
+  ++cells_;
+  const Range x(cell.x);
+  if (x.low > error_ || x.high < -error_) return;
+  const Range y(cell.y);
+  if (y.low > error_ || y.high < -error_) return;
+  const Range z(cell.z);
+  if (z.high < near_ - error_ || z.low > horizon()) return;
+
+  // A cell that touches the ray's band of error and reaches no farther than twice its width is a point, too: splitting
+  // it would only trace the band's edge. (Along the ray it must be short, or it is a curve that runs along the ray.)
+  const bool is_point = in_band(x, y) && z.high - z.low <= 16 * error_;
+  const double size = scale.cwiseAbs().maxCoeff();
+  if (is_point || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience)) {
+    const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
+    accept(D::centre(), std::max(distance, near_), origin, scale);
+    return;
+  }
+
+  Matrix jacobian;
+  jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
+  if (has_hit_ && cells_ > 4 && is_no_nearer(cell, jacobian)) return;
+  const double along_u_length = jacobian.col(0).norm(), along_v_length = jacobian.col(1).norm();
+  if (std::abs(jacobian.determinant()) <= 1e-12 * along_u_length * along_v_length) {
+    // Seen from the ray the cell is nearly a curve: the hull test across it.
+    const Eigen::Vector2d along = jacobian.col(along_u_length > along_v_length ? 0 : 1);
+    std::array<double, 16> across;
+    combine(-along.y(), cell.x, along.x(), cell.y, across);
+    const Range distance(across);
+    const double slack = error_ * along.cwiseAbs().sum() * (1 + 1e-10);
+    if (distance.low > slack || distance.high < -slack) return;
+    return split(cell, origin, scale);
+  }
+  const Matrix flattening = jacobian.inverse();
+
+  // The hull test again, along the cell's own axes.
+  std::array<double, 16> flat_x, flat_y;
+  const double slack_x = error_ * (std::abs(flattening(0, 0)) + std::abs(flattening(0, 1))) * (1 + 1e-10);
+  combine(flattening(0, 0), cell.x, flattening(0, 1), cell.y, flat_x);
+  const Range along_u(flat_x);
+  if (along_u.low > slack_x || along_u.high < -slack_x) return;
+  const double slack_y = error_ * (std::abs(flattening(1, 0)) + std::abs(flattening(1, 1))) * (1 + 1e-10);
+  combine(flattening(1, 0), cell.x, flattening(1, 1), cell.y, flat_y);
+  const Range along_v(flat_y);
+  if (along_v.low > slack_y || along_v.high < -slack_y) return;
+
+  // Where the error is not small against the cell, seen from the ray, there is no one zero for Newton's method to find.
+  const double share = contraction(flat_x, flat_y);
+  if (share < 0.95 && error_ * flattening.norm() < 0.25) {
+    PatchHit hit;
+    const Parameter start = D::nearest(D::centre() - Parameter(corner_mean(flat_x), corner_mean(flat_y)));
+    const Verdict verdict = newton(cell, flattening, share, start, hit);
+    if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
+    if (verdict != Verdict::unknown) return;
+  }
+  split(cell, origin, scale);
+}
+
+/// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty.
+///
+/// On the ray, z is z - a x - b y for any a and b, give or take (|a| + |b|) error. Here a and b take the mean slope of
+/// z away, as far as x and y can: a patch collapsed to a curve meets the ray in one point over and over, at one
+/// distance that the z of its cells do not show; and along a grazing ray, distances are uncertain by as much as a and b
+/// are large. So a hit may be dropped that is nearer by up to impatience x error (1 + steepest): 1e4 errors, 16 times
+/// that for rays that ask thousands of cells.
+template <class Bezier>
+bool NewtonFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) const {
+  const Eigen::Vector2d slope(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
+  Matrix normal_equations = jacobian * jacobian.transpose();
+  normal_equations.diagonal().array() += 1e-12 * normal_equations.trace();
+  const Eigen::Vector2d ab = normal_equations.inverse() * (jacobian * slope);
+  if (!ab.allFinite()) return false;
+  std::array<double, 16> plane, rest;
+  combine(ab.x(), cell.x, ab.y(), cell.y, plane);
+  combine(1, cell.z, -1, plane, rest);
+  return Range(rest).low > best_.distance - impatience() * error_ * (1 + std::min(ab.cwiseAbs().sum(), steepest));
+}
+
+/// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
+/// deviations of both derivative hulls from the unit vectors. The roundings of some 10 u a value are far below the 1e-9
+/// added.
+template <class Bezier>
+double NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const {
+  constexpr double degree = Bezier::degree;
+  double along_u = 0, along_v = 0;
+  for (const auto& [from, to] : Bezier::u_pairs) {
+    const double dx = degree * (x[to] - x[from]) - 1, dy = degree * (y[to] - y[from]);
+    along_u = std::max(along_u, dx * dx + dy * dy);
+  }
+  for (const auto& [from, to] : Bezier::v_pairs) {
+    const double dx = degree * (x[to] - x[from]), dy = degree * (y[to] - y[from]) - 1;
+    along_v = std::max(along_v, dx * dx + dy * dy);
+  }
+  return std::sqrt(along_u + along_v) + 1e-9;
+}
+
+/// The mean of a net's corners: where the plane that it deviates from stands at the centre.
+template <class Bezier>
+double NewtonFinish<Bezier>::corner_mean(const std::array<double, 16>& values) {
+  double sum = 0;
+  for (const std::size_t corner : Bezier::corners) sum += values[corner];
+  return sum / static_cast<double>(Bezier::corners.size());
+}
+
+/// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
+/// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
+/// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at. A point
+/// within the error of the ray is a zero of g moved by no more than |flattening| error, which widens both bounds by 1 /
+/// (1 - q) of that.
+template <class Bezier>
+SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction,
+                                                  Parameter at, PatchHit& hit) -> Verdict {
+  const double slack = error_ * flattening.norm() * 1.5 / (1 - contraction);
+  constexpr int most_steps = 12;
+  for (int i = 0; i < most_steps; ++i) {
+    ++counters_.newton_steps;
+    const typename Bezier::Weights weights = Bezier::weights(at);
+    const Eigen::Vector2d f(dot(cell.x, weights.value), dot(cell.y, weights.value));
+    const bool on_ray = f.cwiseAbs().maxCoeff() <= error_;
+    if (!on_ray) {
+      const Eigen::Vector2d g = flattening * f;
+      const Parameter image = at - g;
+      const double reach = contraction * g.norm() / (1 - contraction) + slack;
+      if ((image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
+    }
+    Matrix jacobian;
+    jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
+    const Eigen::Vector2d step = -(jacobian.inverse() * f);
+    // The step from here wins the last digits: it leaves the square of its length, which is below rounding if it is
+    // short and stays in the cell. To first order the distance follows it. (A long one, of a grazing ray, is not
+    // taken.)
+    constexpr double shortest = 1e-8;
+    const bool is_last = step.norm() <= shortest;
+    if (on_ray || (is_last && D::contains(at + step))) {
+      const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
+      hit = {at + last,
+             dot(cell.z, weights.value) + dot(cell.z, weights.du) * last.x() + dot(cell.z, weights.dv) * last.y()};
+      return Verdict::found;
+    }
+    const Parameter next = D::nearest(at + step);
+    if (next == at || !next.allFinite()) break;
+    at = next;
+  }
+  return Verdict::unknown;
+}
+
+/// The axis along which alone a cell is to be halved: seen from the ray its points move 16 times as far along it as
+/// along the other (along the ray, for a cell that lies on it). -1 if both are to be. Where a ray runs beside the
+/// straight lines of a ruled patch at a distance near its error, square cells would be a million.
+template <class Bezier>
+int NewtonFinish<Bezier>::long_axis(const Net& cell, const Parameter& scale) const {
+  const bool on_ray = in_band(Range(cell.x), Range(cell.y));
+  const auto longest_step = [&](const auto& pairs) {
+    double longest = 0;
+    for (const auto& [from, to] : pairs) {
+      const double step = on_ray ? std::abs(cell.z[to] - cell.z[from])
+                                 : std::max(std::abs(cell.x[to] - cell.x[from]), std::abs(cell.y[to] - cell.y[from]));
+      longest = std::max(longest, step);
+    }
+    return longest;
+  };
+  constexpr double ratio = 16;
+  const double along_u = longest_step(Bezier::u_pairs), along_v = longest_step(Bezier::v_pairs);
+  if (along_u > ratio * along_v && scale.x() > smallest) return 0;
+  if (along_v > ratio * along_u && scale.y() > smallest) return 1;
+  return -1;
+}
+
+template <class Bezier>
+void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const Parameter& scale) {
+  if constexpr (requires(const Bezier& patch) { patch.halves(0); }) {
+    if (const int axis = long_axis(cell, scale); axis >= 0) {
+      const auto halves = cell.template bezier<Bezier>().halves(axis);
+      const std::array<Net, 2> children{Net(halves[0]), Net(halves[1])};
+      Parameter child_scale = scale;
+      child_scale[axis] /= 2;
+      const bool upper_first = Range(children[1].z).low < Range(children[0].z).low;
+      for (const std::size_t k : {upper_first ? 1U : 0U, upper_first ? 0U : 1U}) {
+        Parameter child_origin = origin;
+        if (k == 1) child_origin[axis] += child_scale[axis];
+        visit(children[k], child_origin, child_scale);
+      }
+      return;
+    }
+  }
+  const std::array<Bezier, 4> quarters = cell.template bezier<Bezier>().split();
+  std::array<Net, 4> children;
+  std::array<std::pair<double, int>, 4> order;
+  for (std::size_t k = 0; k < 4; ++k) {
+    children[k] = Net(quarters[k]);
+    order[k] = {Range(children[k].z).low, static_cast<int>(k)};
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [distance, k] : order) {
+    const Parameter child_origin = origin + scale.cwiseProduct(D::to_parent(k, Parameter::Zero()));
+    visit(children[static_cast<std::size_t>(k)], child_origin, scale * D::scale(k));
+  }
+}
+
+}  // namespace shaolin

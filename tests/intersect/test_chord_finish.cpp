@@ -1,0 +1,287 @@
+// The chord finish and its baseline A3 against the exact finish, and each part of the algorithm against its absence.
+#include "schemes/builtin.h"
+#include "schemes/errors.h"
+#include "tests/catch.h"
+#include "tests/intersect/aimed_rays.h"
+#include "tests/intersect/random_rays.h"
+#include "tests/intersect/tolerance_band.h"
+
+namespace shaolin {
+
+namespace {
+
+double diagonal(const Scene& scene) { return (scene.bounds().upper - scene.bounds().lower).norm(); }
+
+SceneOptions by_chords(double epsilon, Method method = Method::chord) {
+  SceneOptions options;
+  options.method = method;
+  options.chord.epsilon = epsilon;
+  return options;
+}
+
+/// A model with its exact scene, and rays.
+struct Reference {
+  Model model;
+  Scene exact;
+  double size;
+
+  explicit Reference(const Model& m) : model(m), exact(m.mesh, m.scheme), size(diagonal(exact)) {}
+  Scene scene(const SceneOptions& options) const { return Scene(model.mesh, model.scheme, options); }
+
+  Agreements compare(const SceneOptions& options, const std::vector<Ray>& rays) const {
+    const Scene chords = scene(options);
+    Agreements all;
+    for (const Ray& ray : rays) all.add(agreement(exact, ray, chords.intersect(ray), 2 * options.chord.epsilon));
+    return all;
+  }
+};
+
+/// Closed and open meshes with creases, high and low valence, n-gons.
+std::vector<Model> models() {
+  ControlMesh creased = with_edges(shaken(torus("catmark", 4, 6), 0.1), {{0, 1, 2.5f}, {1, 2, 10}, {2, 3, 0.5f}});
+  ControlMesh holed = sheet("loop", 4, 3);
+  holed.holes = {3, 7};
+  return {{"poles", "catmark", shaken(poles("catmark", 5), 0.1)},
+          {"poles", "loop", shaken(poles("loop", 7), 0.1)},
+          {"poles of three", "loop", shaken(poles("loop", 3), 0.2)},
+          {"prism", "catmark", shaken(prism(5), 0.1)},
+          {"creased torus", "catmark", std::move(creased)},
+          {"holed sheet", "loop", shaken(std::move(holed), 0.1)}};
+}
+
+/// Lost and misplaced hits over all models of this file.
+Agreements over_models(const ChordOptions& parts, int rays) {
+  Agreements all;
+  for (const Model& model : models()) {
+    const Reference reference(model);
+    SceneOptions options = by_chords(2e-3 * reference.size);
+    const double epsilon = options.chord.epsilon;
+    options.chord = parts;
+    options.chord.epsilon = epsilon;
+    const Agreements some = reference.compare(options, random_rays(reference.exact.bounds(), rays, 77));
+    all.same += some.same;
+    all.in_band += some.in_band;
+    all.lost += some.lost;
+    all.ghosts += some.ghosts;
+  }
+  return all;
+}
+
+/// Of hits: the median distance along the ray from the exact one, relative to the model, and the mean level.
+struct Quality {
+  double error, level;
+};
+Quality quality(const Reference& reference, const SceneOptions& options) {
+  const Scene chords = reference.scene(options);
+  std::vector<double> errors;
+  double levels = 0;
+  for (const Ray& ray : random_rays(reference.exact.bounds(), 1500, 31)) {
+    const auto a = reference.exact.intersect(ray), b = chords.intersect(ray);
+    if (!a || !b) continue;
+    errors.push_back(std::abs(a->t - b->t) * ray.direction.norm() / reference.size);
+    levels += b->level;
+  }
+  REQUIRE(errors.size() > 100);
+  levels /= static_cast<double>(errors.size());
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2), errors.end());
+  return {errors[errors.size() / 2], levels};
+}
+
+}  // namespace
+
+TEST_CASE("Chord faces lose no hit outside the band of their tolerance", "[intersect][chord]") {
+  for (const double epsilon : {3e-2, 3e-3, 3e-4})
+    for (const Model& model : models()) {
+      const Reference reference(model);
+      CAPTURE(model.name, model.scheme, epsilon);
+      const Agreements found =
+          reference.compare(by_chords(epsilon * reference.size), random_rays(reference.exact.bounds(), 2000, 41));
+      CHECK(found.same > 1950);
+      CHECK(found.lost == 0);
+      CHECK(found.ghosts == 0);
+    }
+}
+
+TEST_CASE("Nor on any model of data/ and the shapes", "[intersect][chord]") {
+  for (const Model& model : all_models()) {
+    const Reference reference(model);
+    CAPTURE(model.name, model.scheme);
+    const Agreements found =
+        reference.compare(by_chords(1e-3 * reference.size), random_rays(reference.exact.bounds(), 500, 43));
+    CHECK(found.lost == 0);
+    CHECK(found.ghosts == 0);
+  }
+}
+
+TEST_CASE("Rays aimed at edges and vertices meet the chord faces there", "[intersect][chord]") {
+  Random random(5);
+  for (const Model& model : models()) {
+    if (model.name == "holed sheet") continue;  // on its border chord faces may end before the limit does
+    const Reference reference(model);
+    CAPTURE(model.name, model.scheme);
+    const double epsilon = 1e-2 * reference.size;
+    const Scene chords = reference.scene(by_chords(epsilon));
+    const LimitSurface& surface = chords.surface();
+    for_each_patch(surface, [&](int face, int sub) {
+      for (std::size_t side = 0; side < domain_corners(surface).size(); ++side)
+        for (const double along : {0.0, 0.5, 0.3}) {
+          const LimitSample at = *surface.evaluate(on_side(surface, face, sub, side, along));
+          for (int k = 0; k < 3; ++k) {
+            // Not along the surface, where the band of the tolerance is.
+            Vec3 direction = random.direction();
+            if (std::abs(direction.dot(at.normal)) < 0.5) direction = at.normal;
+            const Ray ray = ray_at(at.position, direction, 3 * reference.size);
+            const auto hit = chords.intersect(ray);
+            CAPTURE(face, sub, side, along, k);
+            REQUIRE(hit);
+            REQUIRE(fault_of(chords, ray, *hit, reference.size) == "");
+            REQUIRE(hit->t <= 3 * reference.size + 3 * epsilon);
+            REQUIRE(chords.occluded(ray));
+          }
+        }
+    });
+  }
+}
+
+TEST_CASE("Without W-cases rays are lost", "[intersect][chord]") {
+  ChordOptions parts;
+  parts.w_cases = false;
+  CHECK(over_models(parts, 4000).lost > 0);
+}
+
+TEST_CASE("Without gap polygons rays are lost", "[intersect][chord]") {
+  ChordOptions parts;
+  parts.gap_polygons = false;
+  CHECK(over_models(parts, 4000).lost > 0);
+}
+
+TEST_CASE("Without border areas rays are lost", "[intersect][chord]") {
+  ChordOptions parts;
+  parts.border_areas = false;
+  CHECK(over_models(parts, 4000).lost > 0);
+}
+
+TEST_CASE("With all parts, none of these rays is", "[intersect][chord]") { CHECK(over_models({}, 4000).lost == 0); }
+
+TEST_CASE("Error and level follow epsilon", "[intersect][chord]") {
+  for (const Method method : {Method::chord, Method::a3})
+    for (const Model& model : models()) {
+      CAPTURE(model.name, model.scheme);
+      const Reference reference(model);
+      const Quality coarse = quality(reference, by_chords(1e-2 * reference.size, method));
+      const Quality fine = quality(reference, by_chords(1e-3 * reference.size, method));
+      CHECK(coarse.error < 1e-2);
+      CHECK(fine.error < 1e-3);
+      CHECK(fine.error < 0.3 * coarse.error);
+      CHECK(fine.level > coarse.level + 1);  // four times nearer a level
+      CHECK(fine.level < coarse.level + 2.5);
+    }
+}
+
+TEST_CASE("Sizes in pixels have the last word", "[intersect][chord]") {
+  const Reference reference({"poles", "loop", shaken(poles("loop", 7), 0.1)});
+  const std::vector<Ray> rays = random_rays(reference.exact.bounds(), 300, 3);
+  const auto levels = [&](double min_size, double max_size, double width) {
+    SceneOptions options = by_chords(1e-6 * reference.size);
+    options.chord.min_size = min_size;
+    options.chord.max_size = max_size;
+    const Scene chords = reference.scene(options);
+    std::vector<int> found;
+    for (Ray ray : rays) {
+      ray.footprint.width = width;
+      if (const auto hit = chords.intersect(ray)) found.push_back(hit->level);
+    }
+    REQUIRE(found.size() > 50);
+    return std::pair(*std::min_element(found.begin(), found.end()), *std::max_element(found.begin(), found.end()));
+  };
+  // Chords of the control faces are shorter than the model: one pixel, or two, of that size holds them.
+  CHECK(levels(1, 2, reference.size) == std::pair(0, 0));
+  // Epsilon asks for more than pixels of 1/64 do, by far; chords halve from level to level.
+  const auto [low, high] = levels(2, 12, reference.size / 64);
+  CHECK(low >= 1);
+  CHECK(high <= 6);
+  // What is larger than 4 pixels is refined, whatever a large epsilon says.
+  SceneOptions rough = by_chords(reference.size);
+  rough.chord.min_size = 1;
+  rough.chord.max_size = 4;
+  const Scene chords = reference.scene(rough);
+  for (Ray ray : rays) {
+    CHECK((!chords.intersect(ray) || chords.intersect(ray)->level == 0));
+    ray.footprint.width = reference.size / 1000;
+    const auto hit = chords.intersect(ray);
+    if (hit && std::abs(hit->sample.normal.dot(ray.direction.normalized())) > 0.5) CHECK(hit->level >= 4);
+  }
+}
+
+TEST_CASE("An instance is refined as its size in the world asks", "[intersect][chord]") {
+  const Model model{"poles", "catmark", shaken(poles("catmark", 5), 0.1)};
+  const SceneOptions options = by_chords(0.02);
+  const auto object = make_object(model.mesh, model.scheme, options);
+  Affine twice = Affine::Identity();
+  twice.linear() *= 2;
+  const Scene alone({Instance{object}}), doubled({Instance{object, twice}});
+  const Scene finer({Instance{make_object(model.mesh, model.scheme, by_chords(0.01))}});
+  for (Ray ray : random_rays(alone.bounds(), 500, 8)) {
+    const auto expected = finer.intersect(ray);  // half the tolerance in half the size
+    ray.origin *= 2;
+    ray.direction *= 2;
+    const auto hit = doubled.intersect(ray);
+    REQUIRE(hit.has_value() == expected.has_value());
+    if (!hit) continue;
+    CHECK(hit->level == expected->level);
+    CHECK(std::abs(hit->t - expected->t) < 1e-12);
+  }
+}
+
+TEST_CASE("Chords answer the same in whatever order rays come", "[intersect][chord]") {
+  for (const Method method : {Method::chord, Method::a3})
+    for (const Model& model : models()) {
+      CAPTURE(model.name, model.scheme);
+      const Reference reference(model);
+      const SceneOptions options = by_chords(2e-3 * reference.size, method);
+      const Scene forward = reference.scene(options), backward = reference.scene(options);
+      const std::vector<Ray> rays = random_rays(reference.exact.bounds(), 800, 21);
+      std::vector<std::optional<Hit>> first;
+      for (const Ray& ray : rays) first.push_back(forward.intersect(ray));
+      for (std::size_t i = rays.size(); i-- > 0;) {
+        const auto again = backward.intersect(rays[i]);
+        REQUIRE(same(first[i], again));
+        REQUIRE(forward.occluded(rays[i]) == first[i].has_value());
+      }
+    }
+}
+
+TEST_CASE("ShaoLin asks fewer hulls than A3", "[intersect][chord]") {
+  for (const Model& model : models()) {
+    CAPTURE(model.name, model.scheme);
+    const Reference reference(model);
+    const auto hull_tests = [&](Method method) {
+      const Scene chords = reference.scene(by_chords(1e-3 * reference.size, method));
+      for (const Ray& ray : random_rays(reference.exact.bounds(), 500, 13)) chords.intersect(ray);
+      return chords.statistics().hull_tests;
+    };
+    CHECK(2 * hull_tests(Method::chord) < hull_tests(Method::a3));
+  }
+}
+
+TEST_CASE("Chord options out of range are refused", "[intersect][chord]") {
+  const ControlMesh mesh = prism(5);
+  const auto message = [&](const SceneOptions& options) -> std::string {
+    try {
+      make_object(mesh, "catmark", options);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  CHECK(message(by_chords(0)) == "epsilon 0.000000 is out of range; expected a positive length");
+  CHECK(message(by_chords(std::nan(""))).find("expected a positive length") != std::string::npos);
+  SceneOptions sizes = by_chords(1);
+  sizes.chord.min_size = 3;
+  sizes.chord.max_size = 2;
+  CHECK(message(sizes) == "sizes 3.000000 and 2.000000 are out of range; expected 0 <= min_size <= max_size");
+  sizes.method = Method::exact;  // which reads none of it
+  CHECK(message(sizes) == "none");
+}
+
+}  // namespace shaolin
