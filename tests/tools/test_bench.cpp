@@ -358,7 +358,7 @@ TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli]
     CHECK(hits > 1000);
     CHECK(lost_out <= lost + farther);
     CHECK(ghosts_out <= ghosts + nearer);
-    CHECK(lost_out + ghosts_out <= rays / 500);
+    CHECK(lost_out + ghosts_out <= rays / 100);
   }
 }
 
