@@ -38,7 +38,10 @@ std::size_t count_disagreements(const Tracer& tracer, std::span<const Ray> rays,
 /// A wrong mesh, transform or scheme is wrong by far more than this: outlines by a few in a hundred pixels, depths by a
 /// few thousandths of the scene. Coarse triangles are off by four times as much for each level less than three.
 std::string fault_of(const Contender& contender, const ErrorFigures& errors, double diagonal) {
-  const double coarse = contender.is_uniform() && contender.level < 3 ? std::pow(4.0, 3 - contender.level) : 1;
+  // Chords are as coarse as epsilon and the size of pixels ask for.
+  const double coarse = contender.is_adaptive()                         ? 4
+                        : contender.is_uniform() && contender.level < 3 ? std::pow(4.0, 3 - contender.level)
+                                                                        : 1;
   if (static_cast<double>(errors.lost + errors.ghosts) > 0.03 * coarse * static_cast<double>(errors.hits) + 4)
     return std::to_string(errors.lost) + " lost and " + std::to_string(errors.ghosts) + " ghost hits of " +
            std::to_string(errors.hits);

@@ -10,7 +10,7 @@ const char* const error_rows_note =
     "over all primary and shadow rays where both hit: the distance along the "
     "ray between the hits, in the scene's unit of length, and the angle between the normals. Lost: only the exact "
     "method hits; ghosts: only the other does. Farther and nearer: both hit, further apart than the band is wide. "
-    "Outside: those of them that no exact ray explains that runs beside this one, within the band's width of 4/3 "
+    "Outside: those of them that no exact ray explains that runs beside this one, within the band's width of 2 "
     "max(epsilon, min size &times; pixel at the hit). For triangles no band is known.";
 
 std::string digits(double value, int significant) {

@@ -69,8 +69,8 @@ MapLikeness compare_maps(const Image& a, const Image& b) {
 MapLikeness draw_maps(const PaperScene& scene, const Subject& subject, const PaperOptions& options) {
   const auto image_by = [&](const Contender& contender) {
     Stage stage = subject.stage;
-    return render_image(build_scene(stage, scene_options(contender)), subject.view, subject.stage.scene.look,
-                        scene_options(contender));
+    const SceneOptions by = scene_options(contender);
+    return render_image(build_scene(stage, by), subject.view, subject.stage.scene.look, by);
   };
   const Image shaolin = image_by(adaptive(ContenderKind::chord, scene, paper_epsilon));
   const Image a3 = image_by(adaptive(ContenderKind::a3, scene, paper_epsilon));

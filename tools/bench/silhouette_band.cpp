@@ -7,7 +7,7 @@
 namespace shaolin {
 
 double band_width(const ChordOptions& options, const Footprint& footprint, double distance) {
-  return 4.0 / 3.0 * std::max(options.epsilon, options.min_size * footprint.at(distance));
+  return band_factor * std::max(options.epsilon, options.min_size * footprint.at(distance));
 }
 
 SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width) {

@@ -9,11 +9,15 @@ namespace shaolin {
 /// The width of the band: how far the chords that chord and a3 stop at may lie from the limit surface, seen across a
 /// ray, at a distance along it (a length of the scene's).
 ///
-/// Refinement stops where the chord's edges are off the limit by less than epsilon |cos| <= epsilon at their middles,
-/// or where the longest chord is seen under min_size pixels, and then the patch is off its chord by less than that. In
-/// between, the edges' middles say how far the inside is off: the deviation of a patch of second order is 4 sum
-/// (b_i b_j d_ij) over its edges' deviations d_ij in barycentric coordinates b, at most 4/9 (3 d) = 4/3 d. Patches
-/// below start patches are of second order but for terms that halve with each level.
+/// Refinement stops where the chord's edges (of quads also the centre) are off the limit by less than epsilon |cos| <=
+/// epsilon at their middles, or where the longest chord is seen under min_size pixels, and then the patch is off its
+/// chord by less than that. What the middles say of the inside: the deviation of a triangle of second order is 4 sum
+/// (b_i b_j d_ij) over its edges' deviations d_ij in barycentric coordinates b, at most 4/9 (3 d) = 4/3 d; of a quad of
+/// second order in u and v, with deviations up to d at nine points that vanish at the corners, at most 1.39 d (l(u)
+/// l(v) + l(u) s(v) + s(u) l(v) with Lagrange's l = 4 x (1 - x) and s = |1 - 2 x|, at x = 0.32). Twice d leaves room
+/// for terms of higher order, which halve with each level, and for the fold between a quad's two triangles: no proof,
+/// but a bound that is stated and searched for exceptions.
+inline constexpr double band_factor = 2;
 double band_width(const ChordOptions& options, const Footprint& footprint, double distance);
 
 /// What exact rays answer that run beside a ray, parallel to it, at up to `width` across: in eight directions, at 1,

@@ -7,6 +7,8 @@
 namespace shaolin {
 namespace {
 
+constexpr double shadow_offset = 4;  ///< pixels; see make_workload()
+
 /// Appends the shadow rays of one hit.
 void add_shadow_rays(const Ray& ray, const Hit& hit, const std::vector<PointLight>& lights, std::vector<Ray>& rays) {
   const bool front = hit.sample.normal.dot(ray.direction) <= 0;
@@ -15,10 +17,10 @@ void add_shadow_rays(const Ray& ray, const Hit& hit, const std::vector<PointLigh
   for (const PointLight& light : lights) {
     if (normal.dot(light.position - hit.sample.position) <= 0) continue;
     Ray shadow;
-    shadow.origin = hit.sample.position + width * normal;
+    shadow.origin = hit.sample.position + shadow_offset * width * normal;
     shadow.direction = light.position - shadow.origin;
     shadow.tmax = 1;
-    shadow.footprint = {width, ray.footprint.growth};
+    shadow.footprint.width = width;
     rays.push_back(shadow);
   }
 }

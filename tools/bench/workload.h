@@ -17,9 +17,10 @@ struct Workload {
   std::size_t size() const { return primary.size() + shadow.size(); }
 };
 
-/// A shadow ray starts one pixel's width (at its hit) off the surface, on the side that is seen: a method that answers
-/// with chords is off the limit surface by parts of a pixel, and would shade itself. Its footprint is the pixel's at
-/// the hit and widens as the primary ray's does. Without lights in `look` there is the key light of pictures.
+/// A shadow ray starts four pixels (at its hit) off the surface, on the side that is seen: chords are off the limit by
+/// the size of patches that are not refined, two pixels, and a surface must not shade itself when the shadow ray meets
+/// other chords than the primary ray. Its footprint is the pixel's at the hit, as in pictures. Without lights in `look`
+/// there is the key light of pictures.
 Workload make_workload(const Scene& exact, const View& view, const Look& look);
 
 }  // namespace shaolin

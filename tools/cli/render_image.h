@@ -6,8 +6,8 @@
 
 namespace shaolin {
 
-/// One ray and its shading per pixel, in parallel; the image does not depend on the number of threads. Throws what the
-/// scene's queries throw. `options` are those that the scene's objects were made with.
+/// One ray and its shading per pixel, in parallel; `options` are those of the scene's objects. The image does not
+/// depend on the number of threads. Throws what the scene's queries throw.
 Image render_image(const Scene& scene, const View& view, const Look& look, const SceneOptions& options = {});
 
 }  // namespace shaolin
