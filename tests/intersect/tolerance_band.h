@@ -22,7 +22,7 @@ inline Agreement agreement(const Scene& exact, const Ray& ray, const std::option
   const std::optional<Hit> expected = exact.intersect(ray);
   if (agrees(expected)) return Agreement::same;
   const Vec3 x = ray.direction.unitOrthogonal(), y = ray.direction.normalized().cross(x);
-  for (const double share : {0.125, 0.25, 0.5, 1.0})
+  for (const double share : {0x1p-24, 0x1p-18, 0x1p-12, 0x1p-6, 0.125, 0.25, 0.5, 1.0})
     for (int k = 0; k < 16; ++k) {
       Ray aside = ray;
       const double angle = k * std::numbers::pi / 8;

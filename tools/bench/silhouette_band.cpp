@@ -24,7 +24,7 @@ SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width)
     band.nearest = std::min(band.nearest, hit->t * length);
     band.farthest = std::max(band.farthest, hit->t * length);
   };
-  for (const double share : {1.0, 0.5, 0.25, 0.125})
+  for (const double share : {1.0, 0.5, 0x1p-2, 0x1p-3, 0x1p-6, 0x1p-9, 0x1p-12, 0x1p-15, 0x1p-18, 0x1p-21, 0x1p-24})
     for (int i = 0; i < directions; ++i) {
       const double angle = 2 * std::numbers::pi * i / directions;
       Ray shifted = ray;

@@ -20,9 +20,10 @@ namespace shaolin {
 inline constexpr double band_factor = 2;
 double band_width(const ChordOptions& options, const Footprint& footprint, double distance);
 
-/// What exact rays answer that run beside a ray, parallel to it, at up to `width` across: in eight directions, at 1,
-/// 1/2, 1/4 and 1/8 of the width. Their intervals are the ray's, and the ray's with a width more at either end, for a
-/// surface may also begin where an interval does.
+/// What exact rays answer that run beside a ray, parallel to it, at up to `width` across: in eight directions, at
+/// shares of the width from 1 down to 2^-24. (The least matter to rays that dip into one sheet by less than rounding
+/// shows, and graze the next: any larger shift loses both.) Their intervals are the ray's, and the ray's with a width
+/// more at either end, for a surface may also begin where an interval does.
 struct SilhouetteBand {
   bool any_miss = false;
   double nearest, farthest;  ///< of all hits, as lengths along the ray; nearest > farthest if there are none
@@ -36,7 +37,7 @@ struct SilhouetteBand {
   }
 };
 
-/// O(64) queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
+/// 176 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
 /// explain the answer.
 SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width);
 
