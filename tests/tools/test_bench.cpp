@@ -104,6 +104,14 @@ TEST_CASE("The silhouette band explains what a shift across the ray does, and no
   }
   CHECK_FALSE(band(0.899).explains(std::nullopt, width));
   CHECK_FALSE(band(1.101).explains(5.0, width));
+  // Only past the rim is anything let through, and only by the plate is anything near.
+  CHECK(band(0.901).lets_through(7, width));
+  CHECK_FALSE(band(0.899).lets_through(7, width));
+  CHECK(band(0.899).lets_through(5.05, width));
+  const Ray ray = down(0, 0.2);
+  const Vec3 along = ray.direction.normalized();
+  for (const double off : {-0.09, 0.09}) CHECK(is_near(scene, ray.origin + (5 + off) * along, along, width));
+  for (const double off : {-0.11, 0.11}) CHECK_FALSE(is_near(scene, ray.origin + (5 + off) * along, along, width));
 }
 
 TEST_CASE("The band's width is that of epsilon or of the smallest patch that is refined", "[tools][bench]") {

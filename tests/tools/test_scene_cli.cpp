@@ -257,4 +257,29 @@ TEST_CASE("Scenes that cannot be used exit with 3 and leave nothing", "[tools][c
   CHECK(folder.list() == before);
 }
 
+TEST_CASE("Pictures by chords look like the exact one", "[tools][cli][scenes]") {
+  // With shadows and mirrors, whose rays start on chord faces and must not meet their neighbours.
+  const Folder folder;
+  for (const std::string scene : {"frogship.json", "mirrors.json"}) {
+    const std::string file = data_file("scenes/" + scene);
+    const std::vector<std::string> size{"--size", "96x72"};
+    const ExrImage exact = render(folder, file, size);
+    for (const std::string method : {"--chord", "--a3"}) {
+      const ExrImage chords =
+          render(folder, file, {"--size", "96x72", method, "0.002", "--min-size", "0.25", "--max-size", "4"});
+      CAPTURE(scene, method);
+      REQUIRE(chords.size() == exact.size());
+      std::size_t differ = 0;
+      double sum = 0;
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        const double difference = (color(chords, i) - color(exact, i)).norm();
+        sum += difference;
+        differ += difference > 0.05;
+      }
+      CHECK(sum / static_cast<double>(exact.size()) < 4e-3);
+      CHECK(differ < exact.size() / 50);  // outlines of things and of shadows
+    }
+  }
+}
+
 }  // namespace shaolin::test

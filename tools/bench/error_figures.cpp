@@ -15,6 +15,15 @@ struct Judged {
   bool outside = false;
 };
 
+bool is_explained(const Scene& exact, const Ray& ray, double width, const std::optional<Answer>& answer) {
+  const SilhouetteBand band = silhouette_band(exact, ray, width);
+  if (!answer) return band.explains({}, width);
+  const double distance = answer->t * ray.direction.norm();
+  return band.explains(distance, width) ||
+         (band.lets_through(distance, width) &&
+          is_near(exact, ray.origin + answer->t * ray.direction, answer->normal, width));
+}
+
 Judged judge(const Contender& contender, const Scene& exact, const Ray& ray, const std::optional<Answer>& expected,
              const std::optional<Answer>& answer) {
   if (!expected && !answer) return {};
@@ -30,9 +39,7 @@ Judged judge(const Contender& contender, const Scene& exact, const Ray& ray, con
     if (!contender.is_adaptive() || std::abs(difference) <= width) return {};
     judged.verdict = difference > 0 ? Verdict::farther : Verdict::nearer;
   }
-  if (contender.is_adaptive())
-    judged.outside =
-        !silhouette_band(exact, ray, width).explains(answer ? std::optional(answer->t * length) : std::nullopt, width);
+  if (contender.is_adaptive()) judged.outside = !is_explained(exact, ray, width, answer);
   return judged;
 }
 

@@ -37,4 +37,8 @@ SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width)
   return band;
 }
 
+bool is_near(const Scene& exact, const Vec3& point, const Vec3& direction, double width) {
+  return exact.occluded({point - width * direction, direction, 0, 2 * width});
+}
+
 }  // namespace shaolin

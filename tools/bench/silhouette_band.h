@@ -28,17 +28,25 @@ struct SilhouetteBand {
   bool any_miss = false;
   double nearest, farthest;  ///< of all hits, as lengths along the ray; nearest > farthest if there are none
 
-  /// True if the answer (a length along the ray, or a miss) is one that a shift by `width` explains: a miss if any of
+  /// True if an answer (a length along the ray, or a miss) is one that a shift by `width` explains: a miss if any of
   /// these rays misses, a hit if it lies between their hits, `width` more at either end. Where the surface goes on to
   /// all sides, hits lie within its slope there, and misses are not explained; at an outline all between the sheet and
   /// what is behind it is.
   bool explains(const std::optional<double>& distance, double width) const {
     return distance ? nearest - width <= *distance && *distance <= farthest + width : any_miss;
   }
+
+  /// True if one of these rays meets nothing nearer than `width` before that distance.
+  bool lets_through(double distance, double width) const { return any_miss || farthest >= distance - width; }
 };
 
+/// True if the surface comes within `width` of a point, along a unit direction or against it.
+bool is_near(const Scene& exact, const Vec3& point, const Vec3& direction, double width);
+
 /// 176 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
-/// explain the answer.
+/// explain the answer, nor do two shifts: a hit is also as it should be if one ray of the band is let through to it,
+/// and the surface is near it. (A tangent ray dips into a sheet by 1e-8 and runs on beside it; chords that miss the dip
+/// may meet it a little farther on, where every shift that meets the sheet has met it before.)
 SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width);
 
 }  // namespace shaolin

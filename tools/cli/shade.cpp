@@ -47,19 +47,26 @@ Shader::Shader(const Scene& scene, const View& view, Look look, const SceneOptio
   // Far above the rounding of a hit's position, far below what a pixel shows.
   offset_ = 1e-6 * (bounds.upper - bounds.lower).norm();
   if (options.method == Method::chord || options.method == Method::a3) {
-    // Both rays may be off the surface by as much, one to each side.
-    offset_ += 2 * options.chord.epsilon;
+    tolerance_ = 2 * options.chord.epsilon;  // both rays may be off the surface by as much, one to each side
     pixels_ = options.chord.min_size;
   }
 }
 
+Ray Shader::leaving(const Seen& seen, const Vec3& direction) const {
+  constexpr double flattest = 0.05;  // along the surface a ray does not get off it within twenty times the clearance
+  const double length = direction.norm(), clearance = tolerance_ + pixels_ * seen.width;
+  Ray ray;
+  ray.origin = seen.position + offset_ * seen.normal;
+  ray.direction = direction;
+  ray.tmin = clearance / std::max(seen.normal.dot(direction), flattest * length);
+  ray.footprint.width = seen.width;
+  return ray;
+}
+
 bool Shader::lit(const PointLight& light, const Seen& seen) const {
-  Ray shadow_ray;
-  shadow_ray.origin = start(seen);
-  shadow_ray.direction = light.position - shadow_ray.origin;
+  Ray shadow_ray = leaving(seen, light.position - (seen.position + offset_ * seen.normal));
   shadow_ray.tmax = 1;
-  shadow_ray.footprint.width = seen.width;
-  return !scene_.occluded(shadow_ray);
+  return shadow_ray.tmin >= 1 || !scene_.occluded(shadow_ray);
 }
 
 Vec3 Shader::fill(const Vec3& direction) const {
@@ -69,10 +76,7 @@ Vec3 Shader::fill(const Vec3& direction) const {
 
 /// A mirror of curvature k turns a ray by 2 k a length: that much more the footprint grows behind it.
 Vec3 Shader::reflection(const Ray& ray, const Seen& seen, int reflections_left) const {
-  Ray reflected;
-  reflected.origin = start(seen);
-  reflected.direction = (ray.direction - 2 * ray.direction.dot(seen.normal) * seen.normal).normalized();
-  reflected.footprint.width = seen.width;
+  Ray reflected = leaving(seen, (ray.direction - 2 * ray.direction.dot(seen.normal) * seen.normal).normalized());
   reflected.footprint.growth = ray.footprint.growth + 2 * seen.curvature * seen.width;
   if (const std::optional<Hit> hit = scene_.intersect(reflected)) return color(reflected, *hit, reflections_left - 1);
   return look_.background ? *look_.background : fill(reflected.direction);

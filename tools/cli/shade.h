@@ -20,8 +20,8 @@ class Shader {
   static constexpr int most_reflections = 4;
 
   /// `scene` must outlive the shader; `options` are those that its objects were made with. Where rays meet chord faces,
-  /// another ray meets others, nearer or farther by what the criteria allow: so much farther off a surface its shadow
-  /// and mirror rays start.
+  /// another ray meets others, nearer or farther by what the criteria allow: shadow and mirror rays meet nothing until
+  /// they are so far off the surface.
   Shader(const Scene& scene, const View& view, Look look = {}, const SceneOptions& options = {});
 
   /// Linear colour of the surface at a hit of `ray`; casts at most one shadow ray for each light there and wherever its
@@ -44,14 +44,14 @@ class Shader {
   /// The light from all around that comes against a direction.
   Vec3 fill(const Vec3& direction) const;
   bool lit(const PointLight& light, const Seen& seen) const;
-  /// Where shadow and mirror rays start.
-  Vec3 start(const Seen& seen) const { return seen.position + (offset_ + pixels_ * seen.width) * seen.normal; }
+  /// A shadow's or mirror's ray: from the surface along a direction, where t is 0 at the surface.
+  Ray leaving(const Seen& seen, const Vec3& direction) const;
 
   const Scene& scene_;
   Look look_;  ///< with the key light, if there are no others
   Vec3 up_;
-  double offset_;  ///< rays from a surface start this far off it, and so many pixels more
-  double pixels_ = 0;
+  double offset_;                      ///< rays from a surface start this far off it
+  double tolerance_ = 0, pixels_ = 0;  ///< and meet nothing nearer to it than this length and so many pixels
 };
 
 }  // namespace shaolin
