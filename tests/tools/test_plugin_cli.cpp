@@ -76,8 +76,7 @@ TEST_CASE("weights out of all proportion end in a message, and soon", "[tools][p
   const std::string huge = bad_plugin("huge"), model = data_file("whale.obj");
   const std::string params = folder.write("params.csv", "0,0,0.3,0.3\n5,0,0.1,0.2\n"), rays = data_file("rays.csv");
   const auto before = folder.list();
-  for (const char* weights : {"1e300 0", "1e300 1e300", "1 1e20", "1e8 0", "1 0.5", "0.3 0.5", "-1e300 1e300",
-                              "1e8 -1e8", "0.5 0.5 1e100", "0.5 0.5 1e300"}) {
+  for (const char* weights : {"1e300 0", "1 1e20", "1 0.5", "-1e300 1e300", "0.5 0.5 1e300"}) {
     const Fault fault(weights);
     CAPTURE(weights);
     for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
