@@ -7,9 +7,11 @@ namespace shaolin {
 /// of its longest chord, seen along the ray at the distance of its centre, in pixels: in footprints of the ray (see
 /// Footprint; a ray without one knows no pixels, and epsilon alone decides).
 struct ChordOptions {
-  double epsilon = 0.01;  ///< bound of chord deviation / |cosine of chord normal and ray|; a length of the scene's, > 0
-  double min_size = 2;    ///< pixels; what is smaller is not refined; >= 0
-  double max_size = 12;   ///< pixels; what is larger is refined whatever epsilon says; >= min_size
+  /// Bound of chord deviation / |cosine of chord normal and ray|; a length of the scene's, > 0. Without a footprint,
+  /// work and memory grow as 1 / epsilon where a ray runs along a straight line of a surface.
+  double epsilon = 0.01;
+  double min_size = 2;   ///< pixels; what is smaller is not refined; >= 0
+  double max_size = 12;  ///< pixels; what is larger is refined whatever epsilon says; >= min_size
 
   /// The paper measures deviation at the middles of edges. An edge that crosses its chord there looks straight; so the
   /// normals at its ends have a say, too, which changes nothing at edges that bend one way like a parabola.
