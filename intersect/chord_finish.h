@@ -20,9 +20,13 @@ class ChordFinish {
   /// A part of a face's patch with a plane TP of its own: all of it, unless that overlaps itself in the projection onto
   /// TP (section 8.1).
   struct Part {
+    Part(const Vec3& plane_normal, bool valid, const BoxSpace& space)
+        : normal(plane_normal), is_valid(valid), box({}, space) {}
+
     Node root;
-    Vec3 normal;           ///< of TP
-    bool is_valid = true;  ///< equation 6 holds for sure
+    Vec3 normal;    ///< of TP
+    bool is_valid;  ///< equation 6 holds for sure
+    SceneBox box;   ///< of the limit and the border areas
   };
 
   class StartPatch {
@@ -71,7 +75,7 @@ class ChordFinish {
 template <Scheme S>
 ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ChordFinish& finish,
                                        TreeTotals& totals)
-    : box_(limit_bound(patch)), scene_box_({}, space) {
+    : scene_box_({}, space) {
   using D = Domain<S::face_kind>;
   const auto add = [&](const Patch<S>& points, const std::vector<std::uint8_t>& path, const Vec3& normal, bool valid) {
     Parameter origin = Parameter::Zero();
@@ -80,10 +84,16 @@ ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace
       origin += scale * D::to_parent(k, Parameter::Zero());
       scale *= D::scale(k);
     }
-    auto part = std::make_unique<Part>();
-    part->normal = normal;
-    part->is_valid = valid;
+    auto part = std::make_unique<Part>(normal, valid, space);
     part->root.make_root(points, level + static_cast<int>(path.size()), origin, scale, finish.hulls());
+    Box box = limit_bound(points);
+    const double slack = 160 * unit_roundoff * box.largest_coordinate();  // see PatchNode::add_slack()
+    box.lower.array() -= slack;
+    box.upper.array() += slack;
+    for (std::size_t edge = 0; edge < Node::sides && finish.options_.border_areas; ++edge)
+      for (const Vec3& point : part->root.border(edge).hull) box.add(point);  // which may reach out of the bound
+    part->box = SceneBox(box, space);
+    box_.add(box);
     parts_.push_back(std::move(part));
   };
   if (finish.options_.valid_patches) {
@@ -94,15 +104,7 @@ ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace
   } else {
     add(patch, {}, chord_plane_normal(patch), true);
   }
-  const double slack = 160 * unit_roundoff * box_.largest_coordinate();  // see PatchNode::add_slack()
-  box_.lower.array() -= slack;
-  box_.upper.array() += slack;
-  // Border areas may reach out of the bound.
-  Box all = box_;
-  for (const auto& one : parts_)
-    for (std::size_t edge = 0; edge < Node::sides && finish.options_.border_areas; ++edge)
-      for (const Vec3& point : one->root.border(edge).hull) all.add(point);
-  scene_box_ = SceneBox(all, space);
+  scene_box_ = SceneBox(box_, space);
 }
 
 /// Section 7 along one ray.
@@ -215,6 +217,7 @@ auto ChordFinish<S>::search(const StartPatch& start, const Approach& approach, T
   std::optional<Found> best;
   Approach along = approach;
   for (const auto& part : start.parts()) {
+    if (!along.box_ray.meets(part->box, along.box_far())) continue;
     Search search(*part, start.bounds(), along, options_, hulls(), totals);
     search.template run<query>(part->root);
     if (!search.found) continue;
