@@ -37,8 +37,19 @@ SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width)
   return band;
 }
 
-bool is_near(const Scene& exact, const Vec3& point, const Vec3& direction, double width) {
-  return exact.occluded({point - width * direction, direction, 0, 2 * width});
+bool is_near(const Scene& exact, const Vec3& point, const Vec3& normal, double width) {
+  constexpr int directions = 8;
+  const Vec3 right = normal.unitOrthogonal(), up = normal.cross(right);
+  const auto is_met = [&](const Vec3& at, double reach) {
+    return exact.occluded({at - reach * normal, normal, 0, 2 * reach});
+  };
+  if (is_met(point, width)) return true;
+  for (int i = 0; i < directions; ++i) {  // beside the rim of an open surface
+    const double angle = 2 * std::numbers::pi * i / directions;
+    if (is_met(point + 0.5 * width * (std::cos(angle) * right + std::sin(angle) * up), std::sqrt(0.75) * width))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace shaolin

@@ -40,8 +40,9 @@ struct SilhouetteBand {
   bool lets_through(double distance, double width) const { return any_miss || farthest >= distance - width; }
 };
 
-/// True if the surface comes within `width` of a point, along a unit direction or against it.
-bool is_near(const Scene& exact, const Vec3& point, const Vec3& direction, double width);
+/// True if the surface is found within `width` of a point: along a unit normal or against it, from the point and from
+/// eight points half as far around it.
+bool is_near(const Scene& exact, const Vec3& point, const Vec3& normal, double width);
 
 /// 176 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
 /// explain the answer, nor do two shifts: a hit is also as it should be if one ray of the band is let through to it,
