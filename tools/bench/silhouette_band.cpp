@@ -30,9 +30,12 @@ SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width)
       Ray shifted = ray;
       shifted.origin += share * width * (std::cos(angle) * right + std::sin(angle) * up);
       ask(shifted);
-      shifted.tmin -= width / length;
-      shifted.tmax += width / length;
-      ask(shifted);
+      for (const double more : {width / length, -width / length}) {
+        Ray other = shifted;
+        other.tmin -= more;
+        other.tmax += more;
+        ask(other);
+      }
     }
   return band;
 }

@@ -44,7 +44,7 @@ struct SilhouetteBand {
 /// eight points half as far around it.
 bool is_near(const Scene& exact, const Vec3& point, const Vec3& normal, double width);
 
-/// 176 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
+/// 264 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
 /// explain the answer, nor do two shifts: a hit is also as it should be if one ray of the band is let through to it,
 /// and the surface is near it. (A tangent ray dips into a sheet by 1e-8 and runs on beside it; chords that miss the dip
 /// may meet it a little farther on, where every shift that meets the sheet has met it before.)
