@@ -23,7 +23,7 @@ class A3Finish {
       box_.lower.array() -= slack;
       box_.upper.array() += slack;
       scene_box_ = SceneBox(box_, space);
-      root_.make_root(std::move(patch), level, Parameter::Zero(), 1, BorderHulls());
+      root_.make_root(std::move(patch), level, Parameter::Zero(), 1, BorderHulls::none);
     }
     const SceneBox& box() const { return scene_box_; }
     const Box& bounds() const { return box_; }
@@ -41,7 +41,7 @@ class A3Finish {
   template <Query query>
   std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
     // Any plane along the ray will do: the projection across the ray is what counts.
-    Search search(start.root().normal(), start.bounds(), approach, options_, BorderHulls(), totals);
+    Search search(start.root().normal(), start.bounds(), approach, options_, BorderHulls::none, totals);
     search.template visit<query>(start.root());
     return search.found;
   }

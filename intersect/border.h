@@ -7,12 +7,8 @@
 
 namespace shaolin {
 
-/// Which hulls of border curves a tree keeps.
-struct BorderHulls {
-  enum class Kind { none, bounds, stand_ins };  ///< stand-ins are those of add_stand_in(), where it has any
-  Kind kind = Kind::none;
-  double resolution = 0;  ///< of bounds beside irregular vertices, a length
-};
+/// Which hulls of border curves a tree keeps; stand-ins are those of add_stand_in(), where it has any.
+enum class BorderHulls { none, bounds, stand_ins };
 
 namespace detail {
 
@@ -36,16 +32,15 @@ inline void add_side(const BezierQuad& piece, int edge, std::vector<Vec3>& point
 
 /// Adds points whose hull holds the limit curve along a patch's edge from corner `edge` to the next. Of a polynomial
 /// patch they are the edge's Bezier points (quartic for Loop, as in the paper; cubic for Catmull-Clark). Beside an
-/// irregular vertex the patch is split towards it; all but the last piece are polynomial then, and the bound of its
-/// whole limit serves for that one, once its edge is shorter than `resolution` (a length). Where both halves stay
-/// irregular (while sharpness decays, and for schemes without polynomials) `splits` of them are the end of it.
-/// O(2^splits + log(edge / resolution)).
+/// irregular vertex the patch is split towards it, `halvings` times; all but the last piece are polynomial then, and
+/// the bound of its whole limit serves for that one, 2^-halvings as wide as the edge. Where both halves stay irregular
+/// (while sharpness decays, and for schemes without polynomials) `splits` of them are the end of it. Shares of the
+/// edge, no lengths: instances of all sizes share a tree. O(2^splits halvings).
 template <Scheme S>
-void add_border_bound(const Patch<S>& patch, int edge, double resolution, int splits, std::vector<Vec3>& points) {
+void add_border_bound(const Patch<S>& patch, int edge, int splits, int halvings, std::vector<Vec3>& points) {
   if (patch.is_regular()) return detail::add_side(patch.regular(), edge, points);
   const int next = (edge + 1) % static_cast<int>(Domain<S::face_kind>::corner_count);
-  const Vec3& from = patch.points[static_cast<std::size_t>(edge)];
-  if (splits == 0 || (patch.points[static_cast<std::size_t>(next)] - from).norm() <= resolution) {
+  if (splits == 0 || halvings == 0) {
     if (patch.configuration->hull_expansion() == 0) {
       points.insert(points.end(), patch.points.begin(), patch.points.end());
       return;
@@ -58,8 +53,8 @@ void add_border_bound(const Patch<S>& patch, int edge, double resolution, int sp
   }
   const Patch<S> first = patch.child(edge), second = patch.child(next);
   const bool both = !first.is_regular() && !second.is_regular();
-  add_border_bound(first, edge, resolution, splits - both, points);
-  add_border_bound(second, edge, resolution, splits - both, points);
+  add_border_bound(first, edge, splits - both, halvings - 1, points);
+  add_border_bound(second, edge, splits - both, halvings - 1, points);
 }
 
 namespace detail {

@@ -60,13 +60,9 @@ class ChordFinish {
  private:
   class Search;
 
-  /// Bounds are a fraction of the tolerance wide, in the object's own lengths.
   BorderHulls hulls() const {
-    using Kind = BorderHulls::Kind;
-    return {!options_.border_areas      ? Kind::none
-            : options_.stand_in_borders ? Kind::stand_ins
-                                        : Kind::bounds,
-            options_.epsilon / 16};
+    if (!options_.border_areas) return BorderHulls::none;
+    return options_.stand_in_borders ? BorderHulls::stand_ins : BorderHulls::bounds;
   }
 
   ChordOptions options_;
@@ -119,8 +115,8 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
   static constexpr std::size_t sides = Node::sides;
 
  public:
-  Search(const Part& part, const Box& bounds, const Approach& approach, const ChordOptions& options,
-         const BorderHulls& hulls, TreeTotals& totals)
+  Search(const Part& part, const Box& bounds, const Approach& approach, const ChordOptions& options, BorderHulls hulls,
+         TreeTotals& totals)
       : Base(part.normal, bounds, approach, options, hulls, totals), is_valid_(part.is_valid) {
     // The shadow's direction: across the normal of TP, within RP, along the ray.
     const Vec3 normal = frame_.turn(part.normal);
@@ -344,7 +340,7 @@ void ChordFinish<S>::Search::meet_border(const Node& node, std::size_t edge) {
   const double square = chord.head<2>().squaredNorm();
   const double share = square > 0 ? std::clamp(-from.head<2>().dot(chord.head<2>()) / square, 0.0, 1.0) : 0.5;
   const double distance = from.z() + share * chord.z();
-  if (!(distance >= approach_.ray.near && distance <= approach_.far())) return;
+  if (!this->is_nearer(distance)) return;
   ++approach_.counters.border_areas_hit;
   ChordHit hit{distance, approach_.ray.origin + distance * approach_.ray.direction,
                (1 - share) * a.normal + share * b.normal,

@@ -46,7 +46,7 @@ class ChordSearch {
   static constexpr std::size_t sides = Node::sides;
 
   ChordSearch(const Vec3& plane_normal, const Box& bounds, const Approach& approach, const ChordOptions& options,
-              const BorderHulls& hulls, TreeTotals& totals)
+              BorderHulls hulls, TreeTotals& totals)
       : approach_(approach),
         frame_(approach.ray, plane_normal),
         triangle_ray_(approach.ray),
@@ -79,7 +79,7 @@ class ChordSearch {
     const double deviation =
         options_.end_normals ? std::max(middles.deviation, middles.end_deviation) : middles.deviation;
     const double silhouette = std::abs(middles.normal.dot(approach_.ray.direction));
-    return !(deviation <= epsilon * silhouette);
+    return !(deviation <= epsilon * silhouette + error_);  // what is flat to rounding is flat, seen edge-on, too
   }
 
   const typename Node::Children& children(const Node& node) const { return node.children(hulls_, totals_); }
@@ -98,7 +98,7 @@ class ChordSearch {
   bool meet(const std::array<ChordPoint, 3>& corners, int level) {
     const auto meeting = triangle_ray_.meet(corners[0].corner->position, corners[1].corner->position,
                                             corners[2].corner->position, approach_.ray.near, approach_.far());
-    if (!meeting) return false;
+    if (!meeting || !is_nearer(meeting->distance)) return false;
     ChordHit hit{meeting->distance, Vec3::Zero(), Vec3::Zero(), Parameter::Zero(), level};
     for (std::size_t i = 0; i < 3; ++i) {
       hit.position += meeting->weights[i] * corners[i].corner->position;
@@ -111,6 +111,12 @@ class ChordSearch {
     }
     take(hit);
     return true;
+  }
+
+  /// Within the ray's interval, and before the nearest hit so far: of equal ones the first stays.
+  bool is_nearer(double distance) const {
+    return distance >= approach_.ray.near &&
+           (approach_.far_is_hit() ? distance < approach_.far() : distance <= approach_.far());
   }
 
   void take(ChordHit hit) {

@@ -46,7 +46,7 @@ class ChordNode {
 
   /// Makes it the root of a start patch, `level` splits below the control face; parameters are those of the face's (or
   /// of the n-gon's corner's) patch: origin + scale * own.
-  void make_root(Patch<S> patch, int level, const Parameter& origin, double scale, const BorderHulls& hulls) {
+  void make_root(Patch<S> patch, int level, const Parameter& origin, double scale, BorderHulls hulls) {
     patch_ = std::move(patch);
     level_ = root_level_ = level;
     origin_ = origin;
@@ -84,7 +84,7 @@ class ChordNode {
 
   /// Both are made now if nobody asked before. Thread-safe. O(points).
   const Middles& middles(TreeTotals& totals) const;
-  const Children& children(const BorderHulls& hulls, TreeTotals& totals) const;
+  const Children& children(BorderHulls hulls, TreeTotals& totals) const;
 
   struct Neighbour {
     const ChordNode* node = nullptr;
@@ -122,16 +122,17 @@ class ChordNode {
     return (way - share * chord).norm();
   }
 
-  void make_borders(const BorderHulls& hulls) {
-    constexpr int splits = 5;  // where nothing becomes polynomial: to a thirty-second of the edge
-    if (!is_outer() || hulls.kind == BorderHulls::Kind::none) return;
+  void make_borders(BorderHulls hulls) {
+    // To a millionth of the edge, and a thirty-second where nothing becomes polynomial.
+    constexpr int splits = 5, halvings = 20;
+    if (!is_outer() || hulls == BorderHulls::none) return;
     borders_ = std::make_unique<Borders>();
     for (std::size_t edge = 0; edge < sides; ++edge) {
       if (!is_outer(edge)) continue;
       auto& [points, reach] = (*borders_)[edge];
       const int number = static_cast<int>(edge);
-      if (hulls.kind != BorderHulls::Kind::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
-        add_border_bound(patch_, number, hulls.resolution, splits, points);
+      if (hulls != BorderHulls::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
+        add_border_bound(patch_, number, splits, halvings, points);
       points.shrink_to_fit();
       for (const Vec3& point : points)
         reach =
@@ -151,7 +152,7 @@ class ChordNode {
   }
 
   std::unique_ptr<Middles> find_middles() const;
-  std::unique_ptr<Children> split(const BorderHulls& hulls, const Middles& middles) const;
+  std::unique_ptr<Children> split(BorderHulls hulls, const Middles& middles) const;
 
   Patch<S> patch_;
   std::array<const ChordCorner*, sides> corners_{};              ///< of the root, or middles of ancestors
@@ -201,7 +202,7 @@ auto ChordNode<S>::middles(TreeTotals& totals) const -> const Middles& {
 }
 
 template <Scheme S>
-auto ChordNode<S>::children(const BorderHulls& hulls, TreeTotals& totals) const -> const Children& {
+auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> const Children& {
   return once(
       children_, [&] { return split(hulls, middles(totals)); },
       [&](const Children& made) {
@@ -243,7 +244,7 @@ auto ChordNode<S>::find_middles() const -> std::unique_ptr<Middles> {
 
 /// Edge e of the parent is edge e of child e and of child e + 1 in both splits.
 template <Scheme S>
-auto ChordNode<S>::split(const BorderHulls& hulls, const Middles& middles) const -> std::unique_ptr<Children> {
+auto ChordNode<S>::split(BorderHulls hulls, const Middles& middles) const -> std::unique_ptr<Children> {
   auto made = std::make_unique<Children>();
   for (std::size_t k = 0; k < 4; ++k) {
     ChordNode& child = made->nodes[k];

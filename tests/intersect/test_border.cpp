@@ -81,7 +81,7 @@ TEST_CASE("Bounds of border curves hold the curves", "[intersect][border]") {
     CAPTURE(scheme);
     for_each_edge(scheme, mesh, [](const auto& patch, int edge, const auto& at) {
       std::vector<Vec3> points;
-      add_border_bound(patch, edge, 1e-3, 5, points);
+      add_border_bound(patch, edge, 5, 10, points);
       REQUIRE(points.size() >= 4);
       // Seen along some directions, each sample must be in the plane hull.
       for (const Vec3& view : {Vec3(0.36, 0.48, 0.8), Vec3(-0.8, 0.6, 0), Vec3(0, 0, 1)}) {
