@@ -58,10 +58,11 @@ class ChordSearch {
   std::optional<ChordHit> found;
 
  protected:
-  /// The criteria of section 7.1, combined as there; a function of the ray and the patch alone. Without a footprint
-  /// there are no pixels: then epsilon decides, and a patch whose chords are all shorter than epsilon is a leaf, for
-  /// what it hides is no larger. Beyond a depth bound, where limit points of neighbours are as near as their rounding,
-  /// refinement ends, and is counted.
+  /// The criteria of section 7.1, combined as there; a function of the ray and the patch alone. Where pixels set no
+  /// least size (the ray has no footprint, or min_size is 0) a patch whose chords are all shorter than epsilon is a
+  /// leaf: what it hides is no larger, and a flat part seen edge-on would be refined along all of the ray. Whatever the
+  /// options, most_splits bounds the work: 2^-24 of a start patch is less than any picture shows. Each time that this
+  /// bound decides is counted.
   bool is_refined(const Node& node) const {
     constexpr int most_splits = 24;
     const Footprint& footprint = approach_.footprint;
@@ -71,15 +72,14 @@ class ChordSearch {
       const double size = projected_size(node), pixel = std::max(0.0, footprint.at(distance(node)));
       if (size < options_.min_size * pixel) return false;
       if (size > options_.max_size * pixel) return node.splits() < most_splits || is_too_deep();
-    } else if (node.longest_chord() < epsilon) {
-      return false;
     }
+    if ((!knows_pixels || options_.min_size == 0) && node.longest_chord() < epsilon) return false;
     if (node.splits() >= most_splits) return is_too_deep();
     const typename Node::Middles& middles = node.middles(totals_);
     const double deviation =
         options_.end_normals ? std::max(middles.deviation, middles.end_deviation) : middles.deviation;
     const double silhouette = std::abs(middles.normal.dot(approach_.ray.direction));
-    return !(deviation <= epsilon * silhouette + error_);  // what is flat to rounding is flat, seen edge-on, too
+    return !(deviation <= epsilon * silhouette);
   }
 
   const typename Node::Children& children(const Node& node) const { return node.children(hulls_, totals_); }

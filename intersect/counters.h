@@ -16,7 +16,7 @@ struct RayCounters {
   std::uint64_t gap_polygons = 0;  ///< asked between leaves of different levels
   std::uint64_t gap_polygons_hit = 0;
   std::uint64_t border_areas_hit = 0;
-  std::uint64_t depth_bounds = 0;  ///< leaves that the criteria would have refined beyond the depth bound
+  std::uint64_t depth_bounds = 0;  ///< times that the depth bound ended refinement
 
   RayCounters& operator+=(const RayCounters& other) {
     hull_tests += other.hull_tests;

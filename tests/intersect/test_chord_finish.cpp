@@ -279,6 +279,82 @@ TEST_CASE("An instance is refined as its size in the world asks", "[intersect][c
   }
 }
 
+TEST_CASE("Border hulls suit instances of any size", "[intersect][chord]") {
+  // Shrunk in its own coordinates and as large as ever in the world's: hulls resolved in the object's lengths would
+  // fill what lies between its parts.
+  const Model model{"poles", "loop", shaken(poles("loop", 7), 0.1)};
+  const Reference reference(model);
+  for (const double scale : {1e-6, 1e3, 1e6}) {
+    CAPTURE(scale);
+    ControlMesh small = model.mesh;
+    for (Vec3& p : small.positions) p /= scale;
+    Affine back = Affine::Identity();
+    back.linear() *= scale;
+    const double epsilon = 1e-2 * reference.size;
+    const Scene chords({Instance{make_object(small, model.scheme, by_chords(epsilon)), back}});
+    Agreements all;
+    for (const Ray& ray : random_rays(reference.exact.bounds(), 1500, 19))
+      all.add(agreement(reference.exact, ray, chords.intersect(ray), 2 * epsilon));
+    CHECK(all.same > 1450);
+    CHECK(all.lost == 0);
+    CHECK(all.ghosts == 0);
+  }
+}
+
+TEST_CASE("An epsilon below rounding ends where pixels do", "[intersect][chord]") {
+  for (const Method method : {Method::chord, Method::a3})
+    for (const Model& model : models()) {
+      CAPTURE(model.name, model.scheme);
+      const Reference reference(model);
+      const Scene chords = reference.scene(by_chords(1e-300, method));
+      int hits = 0;
+      for (Ray ray : random_rays(reference.exact.bounds(), 30, 23)) {
+        ray.footprint.width = reference.size / 200;
+        hits += chords.intersect(ray).has_value();
+      }
+      CHECK(hits > 3);
+    }
+}
+
+TEST_CASE("With no least size, what is flat and seen edge-on is refined to epsilon", "[intersect][chord]") {
+  ControlMesh mesh = sheet("catmark", 4, 4);
+  for (Vec3& p : mesh.positions) p *= 0.25;
+  for (const Method method : {Method::chord, Method::a3}) {
+    SceneOptions options = by_chords(0.01, method);
+    options.chord.min_size = 0;
+    const Scene chords(mesh, "catmark", options);
+    Ray ray{Vec3(-2, 0.5, 0), Vec3(1, 0, 0)};  // in the plane
+    ray.footprint.growth = 0.04;
+    chords.intersect(ray);
+    CHECK(chords.statistics().patches_split < 1000);
+    CHECK(chords.statistics().depth_bounds == 0);
+  }
+}
+
+TEST_CASE("The depth bound is counted", "[intersect][chord]") {
+  const Reference reference({"poles", "loop", shaken(poles("loop", 5), 0.1)});
+  const Scene chords = reference.scene(by_chords(1e-300));
+  for (const Ray& ray : random_rays(reference.exact.bounds(), 5, 3)) chords.intersect(ray);
+  CHECK(chords.statistics().depth_bounds > 0);
+}
+
+TEST_CASE("Of faces that coincide the answer is the exact finish's", "[intersect][chord]") {
+  ControlMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.add_face(std::array<int, 4>{0, 1, 2, 3});
+  mesh.add_face(std::array<int, 4>{4, 5, 6, 7});
+  const Scene exact(mesh, "bilinear");
+  for (const Method method : {Method::chord, Method::a3}) {
+    const Scene chords(mesh, "bilinear", by_chords(0.01, method));
+    for (const double x : {0.3, 0.6}) {
+      const Ray ray{Vec3(x, 0.45, 1), Vec3(0, 0, -1)};
+      const auto a = exact.intersect(ray), b = chords.intersect(ray);
+      REQUIRE((a && b));
+      CHECK(a->at.face == b->at.face);
+    }
+  }
+}
+
 TEST_CASE("Chords answer the same in whatever order rays come", "[intersect][chord]") {
   for (const Method method : {Method::chord, Method::a3})
     for (const Model& model : models()) {
