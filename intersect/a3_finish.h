@@ -18,11 +18,7 @@ class A3Finish {
   class StartPatch {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const A3Finish&, TreeTotals&)
-        : box_(limit_bound(patch)), scene_box_({}, space) {
-      const double slack = 160 * unit_roundoff * box_.largest_coordinate();  // see PatchNode::add_slack()
-      box_.lower.array() -= slack;
-      box_.upper.array() += slack;
-      scene_box_ = SceneBox(box_, space);
+        : box_(limit_bound(patch).with_rounding()), scene_box_(box_, space) {
       root_.make_root(std::move(patch), level, Parameter::Zero(), 1, BorderHulls::none);
     }
     const SceneBox& box() const { return scene_box_; }
@@ -90,6 +86,7 @@ class A3Finish {
       ++approach_.counters.hull_tests;
       const double expansion = node.patch().configuration->hull_expansion();
       const bool is_hull = expansion == 0;
+      // As published: without a margin for rounding, which would take four points for each. Neighbours' hulls overlap.
       OriginInHull hull(is_hull ? 0 : error_);
       double low = std::numeric_limits<double>::infinity(), high = -low;
       const auto add = [&](const Vec3& p) {

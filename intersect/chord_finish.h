@@ -9,7 +9,8 @@ namespace shaolin {
 
 /// A Finish of ShaoLin (see shaolin.h). Rays meet chord faces, gap polygons and border areas, never the limit surface
 /// itself; nothing of the exact finish is used. Lost hits are possible within the tolerance: where the limit surface
-/// leaves its chord faces by less than epsilon across the ray, or is smaller than min_size pixels.
+/// leaves its chord faces by less than epsilon across the ray, or is smaller than min_size pixels. All parts of a start
+/// patch that is reached are asked: one of most patches, hundreds where one is folded.
 template <Scheme S>
 class ChordFinish {
   using Node = ChordNode<S>;
@@ -82,10 +83,7 @@ ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace
     }
     auto part = std::make_unique<Part>(normal, valid, space);
     part->root.make_root(points, level + static_cast<int>(path.size()), origin, scale, finish.hulls());
-    Box box = limit_bound(points);
-    const double slack = 160 * unit_roundoff * box.largest_coordinate();  // see PatchNode::add_slack()
-    box.lower.array() -= slack;
-    box.upper.array() += slack;
+    Box box = limit_bound(points).with_rounding();
     for (std::size_t edge = 0; edge < Node::sides && finish.options_.border_areas; ++edge)
       for (const Vec3& point : part->root.border(edge).hull) box.add(point);  // which may reach out of the bound
     part->box = SceneBox(box, space);
@@ -319,7 +317,7 @@ void ChordFinish<S>::Search::meet_gap(const Node& finer, std::size_t edge, int l
   if (this->meet({this->point(finer, edge), this->point(first, next), this->point(finer, next)}, level))
     ++approach_.counters.gap_polygons_hit;
   const Vec3 from = frame_.project(finer.corner(edge).position), to = frame_.project(finer.corner(next).position);
-  const Vec3 middle = frame_.project(finer.middles(totals_).edges[edge].position);
+  const Vec3 middle = frame_.project(children.middles[edge].position);
   if (crossing(from, middle)) meet_gap(first, edge, level);
   if (crossing(middle, to)) meet_gap(second, edge, level);
 }

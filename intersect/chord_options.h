@@ -7,8 +7,10 @@ namespace shaolin {
 /// of its longest chord, seen along the ray at the distance of its centre, in pixels: in footprints of the ray (see
 /// Footprint; a ray without one knows no pixels, and epsilon alone decides).
 struct ChordOptions {
-  /// Bound of chord deviation / |cosine of chord normal and ray|; a length of the scene's, > 0. Without a footprint,
-  /// work and memory grow as 1 / epsilon where a ray runs along a straight line of a surface.
+  /// Bound of chord deviation / |cosine of chord normal and ray|; a length of the scene's, > 0. In an instance that
+  /// scales its axes differently it stands for what the ray's direction becomes, so deviations across the ray may be
+  /// larger or smaller by the ratio of the scales. Without a footprint, work and memory grow as 1 / epsilon where a ray
+  /// runs along a straight line of a surface.
   double epsilon = 0.01;
   double min_size = 2;   ///< pixels; what is smaller is not refined; >= 0
   double max_size = 12;  ///< pixels; what is larger is refined whatever epsilon says; >= min_size

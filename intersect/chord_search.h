@@ -75,10 +75,9 @@ class ChordSearch {
     }
     if ((!knows_pixels || options_.min_size == 0) && node.longest_chord() < epsilon) return false;
     if (node.splits() >= most_splits) return is_too_deep();
-    const typename Node::Middles& middles = node.middles(totals_);
-    const double deviation =
-        options_.end_normals ? std::max(middles.deviation, middles.end_deviation) : middles.deviation;
-    const double silhouette = std::abs(middles.normal.dot(approach_.ray.direction));
+    const typename Node::Shape& shape = node.shape(totals_);
+    const double deviation = options_.end_normals ? std::max(shape.deviation, shape.end_deviation) : shape.deviation;
+    const double silhouette = std::abs(shape.normal.dot(approach_.ray.direction));
     return !(deviation <= epsilon * silhouette);
   }
 

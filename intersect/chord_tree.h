@@ -9,6 +9,7 @@
 #include "../schemes/evaluate.h"
 #include "../schemes/scheme_surface.h"
 #include "border.h"
+#include "check_finite.h"
 #include "tree_totals.h"
 
 namespace shaolin {
@@ -22,14 +23,14 @@ struct ChordCorner {
 /// A subpatch: its control points N(F), its corners' limit points, and hulls of those of its border curves that lie on
 /// the start patch's border. The corners of children are the parent's corners and the limit points of its edges'
 /// middles, bit for bit; across the border of start patches they agree bit for bit where limit masks are closed (they
-/// sum symmetrically), to rounding where they are derived. Middles are made when the criteria first ask for them, and
-/// kept; children only where refinement goes on, so that leaves, which are most of the subpatches, have none.
+/// sum symmetrically), to rounding where they are derived. Children are made where refinement goes on; leaves, which
+/// are most of the subpatches, keep what the criteria ask for, and not the limit points that it was found by.
 template <Scheme S>
 class ChordNode {
  public:
   using D = Domain<S::face_kind>;
   static constexpr std::size_t sides = D::corner_count;
-  struct Middles;
+  struct Shape;
   struct Children;
   /// Of an outer edge.
   struct Border {
@@ -41,7 +42,7 @@ class ChordNode {
   ChordNode() = default;
   ~ChordNode() {
     delete children_.load();
-    delete middles_.load();
+    delete shape_.load();
   }
 
   /// Makes it the root of a start patch, `level` splits below the control face; parameters are those of the face's (or
@@ -83,7 +84,7 @@ class ChordNode {
   Parameter corner_parameter(std::size_t k) const { return to_face({D::corners[k][0], D::corners[k][1]}); }
 
   /// Both are made now if nobody asked before. Thread-safe. O(points).
-  const Middles& middles(TreeTotals& totals) const;
+  const Shape& shape(TreeTotals& totals) const;
   const Children& children(BorderHulls hulls, TreeTotals& totals) const;
 
   struct Neighbour {
@@ -114,6 +115,10 @@ class ChordNode {
     }
     return {patch.points[static_cast<std::size_t>(k)], Vec3::Zero()};
   }
+  /// The limit at the middle of edge e: corner e + 1 of child e in both splits.
+  static ChordCorner edge_middle(const Patch<S>& child, std::size_t e) {
+    return limit_corner(child, static_cast<int>((e + 1) % sides));
+  }
 
   static double distance_from_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
     const Vec3 chord = b - a, way = point - a;
@@ -133,6 +138,7 @@ class ChordNode {
       const int number = static_cast<int>(edge);
       if (hulls != BorderHulls::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
         add_border_bound(patch_, number, splits, halvings, points);
+      check_finite(points);
       points.shrink_to_fit();
       for (const Vec3& point : points)
         reach =
@@ -151,11 +157,11 @@ class ChordNode {
     return *made.release();
   }
 
-  std::unique_ptr<Middles> find_middles() const;
-  std::unique_ptr<Children> split(BorderHulls hulls, const Middles& middles) const;
+  std::unique_ptr<Shape> find_shape() const;
+  std::unique_ptr<Children> split(BorderHulls hulls) const;
 
   Patch<S> patch_;
-  std::array<const ChordCorner*, sides> corners_{};              ///< of the root, or middles of ancestors
+  std::array<const ChordCorner*, sides> corners_{};              ///< the root's own, or what splits of ancestors added
   std::unique_ptr<std::array<ChordCorner, sides>> own_corners_;  ///< the root's
   std::unique_ptr<Borders> borders_;
   Parameter origin_ = Parameter::Zero();
@@ -164,23 +170,23 @@ class ChordNode {
   unsigned outer_ = 0;
   int number_ = 0;  ///< among its siblings
   const ChordNode* parent_ = nullptr;
-  mutable std::atomic<Middles*> middles_{nullptr};
+  mutable std::atomic<Shape*> shape_{nullptr};
   mutable std::atomic<Children*> children_{nullptr};
 };
 
-/// The limit points that a split adds, and how far the surface is seen to leave the chord face.
+/// How the surface is seen to leave the chord face.
 template <Scheme S>
-struct ChordNode<S>::Middles {
-  std::array<ChordCorner, sides> edges;
-  std::array<ChordCorner, sides - 3> centre;  ///< of a quad
-  Vec3 normal;                                ///< of the chord face
-  double deviation = 0;                       ///< cv of section 7.1
-  double end_deviation = 0;                   ///< what the normals at the ends of edges say of it
+struct ChordNode<S>::Shape {
+  Vec3 normal;               ///< of the chord face
+  double deviation = 0;      ///< cv of section 7.1
+  double end_deviation = 0;  ///< what the normals at the ends of edges say of it
 };
 
-/// The four subpatches of a split.
+/// The four subpatches of a split, and the limit points that it adds.
 template <Scheme S>
 struct ChordNode<S>::Children {
+  std::array<ChordCorner, sides> middles;     ///< of the edges
+  std::array<ChordCorner, sides - 3> centre;  ///< of a quad
   std::array<ChordNode, 4> nodes;
 };
 
@@ -196,15 +202,15 @@ Vec3 ChordNode<S>::normal() const {
 }
 
 template <Scheme S>
-auto ChordNode<S>::middles(TreeTotals& totals) const -> const Middles& {
+auto ChordNode<S>::shape(TreeTotals& totals) const -> const Shape& {
   return once(
-      middles_, [&] { return find_middles(); }, [&](const Middles&) { totals.bytes += sizeof(Middles); });
+      shape_, [&] { return find_shape(); }, [&](const Shape&) { totals.bytes += sizeof(Shape); });
 }
 
 template <Scheme S>
 auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> const Children& {
   return once(
-      children_, [&] { return split(hulls, middles(totals)); },
+      children_, [&] { return split(hulls); },
       [&](const Children& made) {
         std::uint64_t bytes = sizeof(Children);
         for (const ChordNode& child : made.nodes) bytes += child.own_bytes();
@@ -213,43 +219,39 @@ auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> cons
       });
 }
 
-/// Corner e + 1 of child e is the middle of edge e in both splits.
 template <Scheme S>
-auto ChordNode<S>::find_middles() const -> std::unique_ptr<Middles> {
-  auto made = std::make_unique<Middles>();
-  for (std::size_t e = 0; e < sides; ++e) {
-    const Patch<S> child = patch_.child(static_cast<int>(e));
-    for (const Vec3& point : child.points)
-      if (!point.allFinite())
-        throw InputError(
-            "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
-            "not converge; see 'shaolin scheme check'");
-    made->edges[e] = limit_corner(child, static_cast<int>((e + 1) % sides));
-    if constexpr (sides == 4)
-      if (e == 0) made->centre[0] = limit_corner(child, 2);
-  }
+auto ChordNode<S>::find_shape() const -> std::unique_ptr<Shape> {
+  auto made = std::make_unique<Shape>();
   made->normal = normal();
   for (std::size_t e = 0; e < sides; ++e) {
     const ChordCorner &a = corner(e), &b = corner((e + 1) % sides);
-    made->deviation = std::max(made->deviation, distance_from_segment(made->edges[e].position, a.position, b.position));
+    const Patch<S> child = patch_.child(static_cast<int>(e));
+    check_finite(child.points);
+    made->deviation =
+        std::max(made->deviation, distance_from_segment(edge_middle(child, e).position, a.position, b.position));
     // A parabola leaves its chord by a quarter of (chord . end normal).
     for (const Vec3& normal : {a.normal, b.normal})
       made->end_deviation = std::max(made->end_deviation, 0.25 * std::abs(normal.dot(b.position - a.position)));
+    if (sides == 4 && e == 0)  // from the diagonal along which the quad is cut
+      made->deviation = std::max(made->deviation, distance_from_segment(limit_corner(child, 2).position,
+                                                                        corner(0).position, corner(2).position));
   }
-  if constexpr (sides == 4)  // from the diagonal along which the quad is cut
-    made->deviation = std::max(made->deviation,
-                               distance_from_segment(made->centre[0].position, corner(0).position, corner(2).position));
   return made;
 }
 
 /// Edge e of the parent is edge e of child e and of child e + 1 in both splits.
 template <Scheme S>
-auto ChordNode<S>::split(BorderHulls hulls, const Middles& middles) const -> std::unique_ptr<Children> {
+auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
   auto made = std::make_unique<Children>();
+  for (std::size_t k = 0; k < 4; ++k) {
+    made->nodes[k].patch_ = patch_.child(static_cast<int>(k));
+    check_finite(made->nodes[k].patch_.points);
+  }
+  for (std::size_t e = 0; e < sides; ++e) made->middles[e] = edge_middle(made->nodes[e].patch_, e);
+  if constexpr (sides == 4) made->centre[0] = limit_corner(made->nodes[0].patch_, 2);
   for (std::size_t k = 0; k < 4; ++k) {
     ChordNode& child = made->nodes[k];
     const int number = static_cast<int>(k);
-    child.patch_ = patch_.child(number);
     child.origin_ = to_face(D::to_parent(number, Parameter::Zero()));
     child.scale_ = scale_ * D::scale(number);
     child.level_ = level_ + 1;
@@ -257,14 +259,14 @@ auto ChordNode<S>::split(BorderHulls hulls, const Middles& middles) const -> std
     child.number_ = number;
     child.parent_ = this;
     if (k == sides) {  // the middle triangle
-      for (std::size_t i = 0; i < sides; ++i) child.corners_[i] = &middles.edges[(i + 1) % sides];
+      for (std::size_t i = 0; i < sides; ++i) child.corners_[i] = &made->middles[(i + 1) % sides];
       continue;
     }
     const std::size_t before = (k + sides - 1) % sides;
     child.corners_[k] = corners_[k];
-    child.corners_[(k + 1) % sides] = &middles.edges[k];
-    if constexpr (sides == 4) child.corners_[(k + 2) % sides] = &middles.centre[0];
-    child.corners_[before] = &middles.edges[before];
+    child.corners_[(k + 1) % sides] = &made->middles[k];
+    if constexpr (sides == 4) child.corners_[(k + 2) % sides] = &made->centre[0];
+    child.corners_[before] = &made->middles[before];
     child.outer_ = outer_ & (1u << k | 1u << before);
     child.make_borders(hulls);
   }

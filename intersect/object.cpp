@@ -1,17 +1,25 @@
 #include "object.h"
 
+#include <sstream>
+
 #include "scheme_object.h"
 
 namespace shaolin {
 
 namespace {
 
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
 /// (Written so that a NaN fails.)
 void check(const ChordOptions& options) {
   if (!(options.epsilon > 0))
-    throw InputError("epsilon " + std::to_string(options.epsilon) + " is out of range; expected a positive length");
+    throw InputError("epsilon " + text(options.epsilon) + " is out of range; expected a positive length");
   if (!(options.min_size >= 0 && options.max_size >= options.min_size))
-    throw InputError("sizes " + std::to_string(options.min_size) + " and " + std::to_string(options.max_size) +
+    throw InputError("sizes " + text(options.min_size) + " and " + text(options.max_size) +
                      " are out of range; expected 0 <= min_size <= max_size");
 }
 

@@ -39,7 +39,8 @@ class Object {
   /// there are none.
   virtual Box bounds() const = 0;
 
-  /// What rays have made so far: faces, faces_touched, patches_split and bytes. The other fields are a scene's.
+  /// What rays have made so far: faces, faces_touched, patches_split, bytes, invalid_patches and unresolved_patches.
+  /// The other fields are a scene's.
   virtual void add_to(Statistics& total) const = 0;
 
   /// The closest hit with tmin <= t <= tmax, or empty. A scene has checked the ray's numbers.
@@ -50,7 +51,7 @@ class Object {
 };
 
 /// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces; nothing is
-/// refined before a ray asks. Throws InputError as make_limit_surface() does, or for a level out of range.
+/// refined before a ray asks. Throws InputError as make_limit_surface() does, or for options out of range.
 std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::string& scheme,
                                           const SceneOptions& options = {});
 /// By any scheme, for instance one from load_plugin(). What the masks throw comes out of this or of the query that is

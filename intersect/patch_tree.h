@@ -6,6 +6,7 @@
 #include "../schemes/errors.h"
 #include "../schemes/patch.h"
 #include "box_space.h"
+#include "check_finite.h"
 #include "limit_bounds.h"
 #include "net.h"
 #include "tree_totals.h"
@@ -90,8 +91,7 @@ class PatchNode {
     }
     irregular_ = std::make_unique<Patch<S>>(std::move(patch));
     check_finite(irregular_->points);
-    box_ = limit_bound(*irregular_);
-    add_slack();
+    box_ = limit_bound(*irregular_).with_rounding();
     leaf_ = basis_of(irregular_->configuration->scheme()) == Basis::none &&
             (level_ >= deepest_kept_refinement || is_flat(*irregular_));
   }
@@ -100,23 +100,8 @@ class PatchNode {
     regular_ = std::make_unique<Net>(piece);
     check_finite(piece.b);
     for (const Vec3& point : piece.b) box_.add(point);
-    add_slack();
+    box_ = box_.with_rounding();
     leaf_ = level_ - regular_level_ >= deepest_polynomial_split || is_flat(piece);
-  }
-
-  template <class Points>
-  static void check_finite(const Points& points) {
-    if (!std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); }))
-      throw InputError(
-          "refinement leads to points that are not finite: coordinates are too large, or the masks of the scheme do "
-          "not converge; see 'shaolin scheme check'");
-  }
-
-  /// The control points carry the roundings that RayFrame::error bounds; a box test must not be stricter.
-  void add_slack() {
-    const double slack = 160 * unit_roundoff * box_.largest_coordinate();
-    box_.lower.array() -= slack;
-    box_.upper.array() += slack;
   }
 
   /// The surface adds at most an eighth of its sides to its flat part.

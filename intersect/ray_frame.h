@@ -12,9 +12,11 @@ namespace shaolin {
 class RayFrame {
  public:
   RayFrame(const TraversalRay& ray, const Vec3& patch_normal) : origin_(ray.origin), direction_(ray.direction) {
+    // The product's rounding has a part along the ray, which counts where the product is small; that part is taken out.
     Vec3 across = direction_.cross(patch_normal);
-    // The ray runs along the normal (or there is none): any plane through the ray can be RP.
-    if (!(across.squaredNorm() > 1e-6 * patch_normal.squaredNorm())) across = direction_.unitOrthogonal();
+    across -= across.dot(direction_) * direction_;
+    // The ray runs along the normal to 16 roundings (or there is none): any plane through the ray holds it as well.
+    if (!(across.norm() > 16 * unit_roundoff * patch_normal.norm())) across = direction_.unitOrthogonal();
     rp_ = across.normalized();
     cp_ = rp_.cross(direction_);
   }

@@ -102,10 +102,7 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
   std::vector<Box> boxes;
   for (const int f : mesh.faces()) {
     if (!mesh.has_limit(f)) continue;
-    Box box = bounds[static_cast<std::size_t>(f)];
-    const double slack = 160 * unit_roundoff * box.largest_coordinate();
-    box.lower.array() -= slack;
-    box.upper.array() += slack;
+    const Box box = bounds[static_cast<std::size_t>(f)].with_rounding();
     if (!box.lower.allFinite() || !box.upper.allFinite())
       throw InputError("nothing bounds the surface of face " + std::to_string(f) +
                        ": its coordinates are too large, or the masks of the scheme do not sum to one or not "

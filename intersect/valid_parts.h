@@ -67,7 +67,7 @@ int semi_sharp_levels(const Configuration<S>& configuration) {
 /// most_valid_splits splits (and those that semi-sharpness lasts) are visited as not resolved. So are all that are left
 /// where a level leaves more than 4 2^l parts: a curve (a fold's edge, a crease) meets so many of the 4^l, more mean
 /// that the surface is degenerate over an area. Schemes without polynomials are not split, for nothing would be known
-/// of their parts either. At most some 10,000 tests; one for most patches.
+/// of their parts either. One test for most patches; at most 16 2^l at level l.
 template <Scheme S, class Visit>
 ValidityCounts for_each_valid_part(const Patch<S>& start, Visit visit) {
   const bool is_decidable = basis_of(start.configuration->scheme()) != Basis::none;

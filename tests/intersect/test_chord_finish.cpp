@@ -396,12 +396,13 @@ TEST_CASE("Chord options out of range are refused", "[intersect][chord]") {
     }
     return "none";
   };
-  CHECK(message(by_chords(0)) == "epsilon 0.000000 is out of range; expected a positive length");
+  CHECK(message(by_chords(0)) == "epsilon 0 is out of range; expected a positive length");
+  CHECK(message(by_chords(-1e-9)) == "epsilon -1e-09 is out of range; expected a positive length");
   CHECK(message(by_chords(std::nan(""))).find("expected a positive length") != std::string::npos);
   SceneOptions sizes = by_chords(1);
   sizes.chord.min_size = 3;
   sizes.chord.max_size = 2;
-  CHECK(message(sizes) == "sizes 3.000000 and 2.000000 are out of range; expected 0 <= min_size <= max_size");
+  CHECK(message(sizes) == "sizes 3 and 2 are out of range; expected 0 <= min_size <= max_size");
   sizes.method = Method::exact;  // which reads none of it
   CHECK(message(sizes) == "none");
 }

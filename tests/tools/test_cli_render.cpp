@@ -145,4 +145,52 @@ TEST_CASE("A model without a limit surface needs a camera", "[tools][cli][render
         0);
 }
 
+TEST_CASE("render counts what chords do", "[tools][cli]") {
+  const Folder folder;
+  const auto counts = [&](const std::vector<std::string>& method) {
+    std::vector<std::string> line{"render",  data_file("rook.obj"), "-o", folder / "out.exr", "--size", "40x40",
+                                  "--stats", folder / "stats.json"};
+    line.insert(line.end(), method.begin(), method.end());
+    const Outcome outcome = folder.run(line);
+    CAPTURE(outcome.text);
+    REQUIRE(outcome.status == 0);
+    return nlohmann::json::parse(read_file(folder / "stats.json"))["statistics"];
+  };
+  const auto chord = counts({"--chord", "0.01"}), a3 = counts({"--a3", "0.01"}), exact = counts({});
+  for (const char* name : {"chord_tests", "gap_polygons", "border_areas_hit", "invalid_patches"}) {
+    CAPTURE(name);
+    CHECK(chord.at(name) > 0);
+    CHECK(exact.at(name) == 0);
+  }
+  CHECK(a3.at("chord_tests") > 0);
+  CHECK(a3.at("gap_polygons") == 0);
+  CHECK(chord.at("depth_bounds") == 0);
+}
+
+TEST_CASE("render says what is wrong with a tolerance", "[tools][cli]") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& method, const std::string& why) {
+    std::vector<std::string> line{"render", data_file("rook.obj"), "-o", folder / "out.exr", "--size", "8x8"};
+    line.insert(line.end(), method.begin(), method.end());
+    const Outcome outcome = folder.run(line);
+    CAPTURE(method, outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find(why) != std::string::npos);
+    CHECK(folder.list().empty());
+  };
+  for (const std::string value : {"nan", "0", "-1", "inf", "abc"})
+    for (const std::string method : {"--chord", "--a3"})
+      refused({method, value}, "'" + value + "' is not a number above 0");
+  refused({"--chord", "1", "--min-size", "nan"}, "'nan' is not a number from 0 on");
+  refused({"--chord", "1", "--min-size", "3", "--max-size", "2"}, "--max-size: is smaller than --min-size");
+  refused({"--min-size", "3"}, "--min-size and --max-size need --chord or --a3");
+  refused({"--uniform", "3", "--max-size", "3"}, "--min-size and --max-size need --chord or --a3");
+  refused({"--chord", "1", "--a3", "1"}, "excludes");
+  const Outcome fine =
+      folder.run({"render", data_file("rook.obj"), "-o", folder / "out.exr", "--size", "8x8", "--chord", "0.01",
+                  "--min-size", "30"});  // more than the largest size that nobody gave
+  CAPTURE(fine.text);
+  CHECK(fine.status == 0);
+}
+
 }  // namespace shaolin::test

@@ -5,22 +5,12 @@
 #include "tools/bench/lost.h"
 #include "tools/bench/paper.h"
 #include "tools/bench/pareto.h"
+#include "tools/cli/number_checks.h"
 #include "tools/cli/parse_into.h"
 #include "tools/cli/threads.h"
 
 namespace shaolin {
 namespace {
-
-CLI::Validator positive() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value > 0 && value < 1e300
-                   ? std::string()
-                   : "'" + text + "' is not a number above 0";
-      },
-      "POSITIVE");
-}
 
 void add_size_option(CLI::App& app, ImageSize& size) {
   app.add_option_function<std::string>("--size", parse_into(size, parse_size, "--size"), "Size in pixels")
@@ -48,12 +38,15 @@ void add_chord_options(CLI::App& app, std::optional<double>& unit, double& min_s
   app.add_option("--unit", unit,
                  "The length that an epsilon of 1 stands for (default: the paper's scenes have their own, see "
                  "docs/bench.md; else a fiftieth of the diagonal)")
-      ->check(positive());
+      ->check(is_positive());
   app.add_option("--min-size", min_size, "Pixels: what is smaller is not refined")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(is_not_negative())
       ->capture_default_str();
   app.add_option("--max-size", max_size, "Pixels: what is larger is refined (default: 12; 20 in Eggs'n'Bunnies)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(is_not_negative());
+  app.parse_complete_callback([&min_size, &max_size] {
+    if (max_size && *max_size < min_size) throw CLI::ValidationError("--max-size: is smaller than --min-size");
+  });
 }
 
 void add_report_option(CLI::App& app, std::filesystem::path& report) {
@@ -100,12 +93,15 @@ void add_lost(CLI::App& app, Command& command) {
                                      "their tolerance implies; exits with 1 if there are any outside");
   sub->add_option("MODEL", options->models, "OBJ files or scene files")->required();
   sub->add_option("--rays", options->rays,
-                  "Rays at each model, in thirds: from cameras, incoherent, grazing; a tenth in addition is aimed at "
+                  "Rays at each model (as many at each of its instances, rounded up), in thirds: from cameras, "
+                  "incoherent, grazing; a tenth in addition is aimed at "
                   "edges and vertices of patches")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000000}))
       ->capture_default_str();
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
-  sub->add_option("--epsilon", options->epsilon, "In units")->check(positive())->capture_default_str();
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  sub->add_option("--epsilon", options->epsilon, "In units")->check(is_positive())->capture_default_str();
   add_chord_options(*sub, options->unit, options->min_size, options->max_size);
   sub->add_flag("--a3", options->a3, "A3 in place of ShaoLin");
   add_threads_option(*sub, options->threads);

@@ -87,6 +87,7 @@ PaperResult measure_scene(const PaperScene& scene, const PaperOptions& options) 
   const std::string file = std::string(scene.file) + (options.quads ? "-catmark" : "") + ".json";
   std::printf("%s\n", scene.title);
   const Subject subject({options.scenes / file, {}, {}}, options.size);
+  make_report_folder(options.report);
   PaperResult result{.scene = &scene};
   result.primary = subject.work.primary.size();
   result.shadow = subject.work.shadow.size();
@@ -140,7 +141,6 @@ std::string picture_name(const PaperScene& scene, const std::string& what) {
 }
 
 int bench_paper(const PaperOptions& options) {
-  make_report_folder(options.report);
   std::vector<PaperResult> results;
   run_with_threads(options.threads, [&] {
     for (const PaperScene& scene : paper_scenes())

@@ -126,10 +126,10 @@ double max_size_of(const ModelOptions& model) {
 }
 
 int bench_pareto(const ParetoOptions& options) {
-  make_report_folder(options.report);
   int status = exit_done;
   run_with_threads(options.threads, [&] {
     const Subject subject(options.model, options.size);
+    make_report_folder(options.report);
     const double unit = options.unit.value_or(unit_of(options.model, subject.diagonal));
     const double max_size = std::max(options.min_size, options.max_size.value_or(max_size_of(options.model)));
     const std::vector<Measurement> measurements =

@@ -34,7 +34,7 @@ SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width)
         Ray other = shifted;
         other.tmin -= more;
         other.tmax += more;
-        ask(other);
+        if (other.tmin <= other.tmax) ask(other);  // nothing is left of an interval of two widths
       }
     }
   return band;

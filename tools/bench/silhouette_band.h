@@ -23,7 +23,7 @@ double band_width(const ChordOptions& options, const Footprint& footprint, doubl
 /// What exact rays answer that run beside a ray, parallel to it, at up to `width` across: in eight directions, at
 /// shares of the width from 1 down to 2^-24. (The least matter to rays that dip into one sheet by less than rounding
 /// shows, and graze the next: any larger shift loses both.) Their intervals are the ray's, and the ray's with a width
-/// more at either end, for a surface may also begin where an interval does.
+/// more, or less, at either end, for an interval may begin or end in the band of a surface.
 struct SilhouetteBand {
   bool any_miss = false;
   double nearest, farthest;  ///< of all hits, as lengths along the ray; nearest > farthest if there are none

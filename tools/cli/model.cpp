@@ -1,11 +1,13 @@
 #include "tools/cli/model.h"
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
 #include "schemes/builtin.h"
 #include "schemes/load_plugin.h"
 #include "schemes/obj.h"
+#include "tools/cli/number_checks.h"
 #include "tools/cli/scene_file.h"
 
 namespace shaolin {
@@ -71,7 +73,7 @@ void add_method_options(CLI::App& app, SceneOptions& options) {
               options.chord.epsilon = epsilon;
             },
             what)
-        ->check(CLI::PositiveNumber)
+        ->check(is_positive())
         ->type_name("EPSILON")
         ->excludes(uniform);
   };
@@ -83,13 +85,22 @@ void add_method_options(CLI::App& app, SceneOptions& options) {
       add_chords("--a3", Method::a3, "For comparison: the same chord faces by the algorithm that it was compared with");
   a3->excludes(chord);
   const auto add_size = [&](const std::string& name, double& size, const std::string& what) {
-    app.add_option(name, size, "With --chord or --a3: " + what + ", in pixels")
-        ->check(CLI::NonNegativeNumber)
+    return app.add_option(name, size, "With --chord or --a3: " + what + ", in pixels")
+        ->check(is_not_negative())
         ->type_name("PIXELS")
         ->capture_default_str();
   };
-  add_size("--min-size", options.chord.min_size, "chord faces smaller than this are not refined");
-  add_size("--max-size", options.chord.max_size, "chord faces larger than this are refined");
+  CLI::Option* const least =
+      add_size("--min-size", options.chord.min_size, "chord faces smaller than this are not refined");
+  CLI::Option* const largest =
+      add_size("--max-size", options.chord.max_size, "chord faces larger than this are refined");
+  app.parse_complete_callback([&options, chord, a3, least, largest] {
+    if (least->count() + largest->count() > 0 && chord->count() + a3->count() == 0)
+      throw CLI::ValidationError("--min-size and --max-size need --chord or --a3");
+    if (largest->count() == 0) options.chord.max_size = std::max(options.chord.min_size, options.chord.max_size);
+    if (options.chord.max_size < options.chord.min_size)
+      throw CLI::ValidationError("--max-size: is smaller than --min-size");
+  });
 }
 
 LoadedModel load_model(const ModelOptions& options) {

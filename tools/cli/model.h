@@ -24,8 +24,8 @@ struct ModelOptions {
 /// The files that it names, for expect_distinct_files().
 std::vector<NamedFile> inputs_of(const ModelOptions& options);
 
-/// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces, with
-/// --min-size and --max-size.
+/// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces,
+/// with --min-size and --max-size.
 void add_method_options(CLI::App& app, SceneOptions& options);
 
 /// Accepts the names of the built-in schemes.

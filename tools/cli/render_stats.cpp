@@ -21,6 +21,14 @@ Json to_json(const Statistics& statistics) {
           {"hull_tests", statistics.hull_tests},
           {"cells", statistics.cells},
           {"newton_steps", statistics.newton_steps},
+          {"chord_tests", statistics.chord_tests},
+          {"w_cases", statistics.w_cases},
+          {"gap_polygons", statistics.gap_polygons},
+          {"gap_polygons_hit", statistics.gap_polygons_hit},
+          {"border_areas_hit", statistics.border_areas_hit},
+          {"depth_bounds", statistics.depth_bounds},
+          {"invalid_patches", statistics.invalid_patches},
+          {"unresolved_patches", statistics.unresolved_patches},
           {"bytes", statistics.bytes}};
 }
 

@@ -109,7 +109,9 @@ void add_validate(CLI::App& app, Command& command) {
                   "Evaluations; a quarter of them crowds towards corners of patches, down to 1e-8 (default: 10000; 300 "
                   "without OpenSubdiv)")
       ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")->capture_default_str();
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   sub->add_option("--report", options->report, "JSON file for all figures and every disagreement")->type_name("FILE");
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
