@@ -19,7 +19,8 @@ class A3Finish {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const A3Finish&, TreeTotals&)
         : box_(limit_bound(patch).with_rounding()), scene_box_(box_, space) {
-      root_.make_root(std::move(patch), level, Parameter::Zero(), 1, BorderHulls::none);
+      root_.make_root(std::make_unique<typename Node::Root>(typename Node::Root{std::move(patch), level}),
+                      BorderHulls::none);
     }
     const SceneBox& box() const { return scene_box_; }
     const Box& bounds() const { return box_; }
@@ -84,7 +85,7 @@ class A3Finish {
    private:
     bool holds_ray(const Node& node) const {
       ++approach_.counters.hull_tests;
-      const double expansion = node.patch().configuration->hull_expansion();
+      const double expansion = node.configuration().hull_expansion();
       const bool is_hull = expansion == 0;
       // As published: without a margin for rounding, which would take four points for each. Neighbours' hulls overlap.
       OriginInHull hull(is_hull ? 0 : error_);
@@ -95,9 +96,9 @@ class A3Finish {
         high = std::max(high, p.z());
       };
       if (is_hull) {
-        for (const Vec3& point : node.patch().points) add(frame_.project(point));
+        for (std::size_t i = 0; i < node.point_count(); ++i) add(frame_.project(node.point(i)));
       } else {  // the limit leaves the hull of its control points: the box that holds it instead
-        const Box box = frame_.hull(node.patch().points).expanded(expansion);
+        const Box box = this->hull(node);
         for (const double x : {box.lower.x(), box.upper.x()})
           for (const double y : {box.lower.y(), box.upper.y()}) hull.add(x, y);
         low = box.lower.z();

@@ -82,10 +82,12 @@ ChordFinish<S>::StartPatch::StartPatch(Patch<S> patch, int level, const BoxSpace
       scale *= D::scale(k);
     }
     auto part = std::make_unique<Part>(normal, valid, space);
-    part->root.make_root(points, level + static_cast<int>(path.size()), origin, scale, finish.hulls());
+    part->root.make_root(std::make_unique<typename Node::Root>(
+                             typename Node::Root{points, level + static_cast<int>(path.size()), origin, scale}),
+                         finish.hulls());
     Box box = limit_bound(points).with_rounding();
     for (std::size_t edge = 0; edge < Node::sides && finish.options_.border_areas; ++edge)
-      for (const Vec3& point : part->root.border(edge).hull) box.add(point);  // which may reach out of the bound
+      part->root.for_each_border_point(edge, [&](const Vec3& p) { box.add(p); });  // which may leave the bound
     part->box = SceneBox(box, space);
     box_.add(box);
     parts_.push_back(std::move(part));
@@ -164,17 +166,16 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
     if (first || !options_.border_areas) return first;
     for (std::size_t edge = 0; edge < sides; ++edge) {
       if (!node.is_outer(edge)) continue;
-      const auto& [hull, reach] = node.border(edge);
       // The chord lies on one side of RP, and the hull is no farther from it.
       const double way = std::min(std::abs(corners[edge].x()), std::abs(corners[(edge + 1) % sides].x()));
-      if (way > reach + 2 * error_) continue;
+      if (way > node.border_reach() + 2 * error_) continue;
       double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
-      for (const Vec3& point : hull) {
+      node.for_each_border_point(edge, [&](const Vec3& point) {
         const Vec3 p = frame_.project(point);
         low = std::min(low, p.x());
         high = std::max(high, p.x());
         least = std::min(least, place(p));
-      }
+      });
       if (low <= error_ && high >= -error_) enter(least);
     }
     return first;
@@ -183,7 +184,7 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
   /// CP test: whether the control points are on both sides of CP, and not all nearer or farther than the ray looks.
   bool crosses_cp(const Node& node) const {
     ++approach_.counters.hull_tests;
-    const Box hull = frame_.hull(node.patch().points).expanded(node.patch().configuration->hull_expansion());
+    const Box hull = this->hull(node);
     return hull.lower.y() <= error_ && hull.upper.y() >= -error_ && hull.upper.z() >= approach_.ray.near - error_ &&
            hull.lower.z() <= approach_.far() + error_;
   }
@@ -326,17 +327,18 @@ void ChordFinish<S>::Search::meet_gap(const Node& finer, std::size_t edge, int l
 /// The paper does not say where; here, as far along the ray as the nearest point of the chord.
 template <Scheme S>
 void ChordFinish<S>::Search::meet_border(const Node& node, std::size_t edge) {
-  OriginInHull hull(error_);
-  for (const Vec3& point : node.border(edge).hull) {
-    const Vec3 p = frame_.project(point);
-    hull.add(p.x(), p.y());
-  }
-  if (!hull.holds()) return;
   const std::size_t next = (edge + 1) % sides;
   const ChordCorner &a = node.corner(edge), &b = node.corner(next);
   const Vec3 from = frame_.project(a.position), chord = frame_.project(b.position) - from;
   const double square = chord.head<2>().squaredNorm();
   const double share = square > 0 ? std::clamp(-from.head<2>().dot(chord.head<2>()) / square, 0.0, 1.0) : 0.5;
+  if ((from + share * chord).head<2>().norm() > node.border_reach() + 4 * error_) return;
+  OriginInHull hull(error_);
+  node.for_each_border_point(edge, [&](const Vec3& point) {
+    const Vec3 p = frame_.project(point);
+    hull.add(p.x(), p.y());
+  });
+  if (!hull.holds()) return;
   const double distance = from.z() + share * chord.z();
   if (!this->is_nearer(distance)) return;
   ++approach_.counters.border_areas_hit;

@@ -32,10 +32,15 @@ struct ChordHit {
   }
 };
 
-/// A corner of a chord face with its place in the face's patch.
+/// A corner of a chord face: corner k of a subpatch.
+template <Scheme S>
 struct ChordPoint {
-  const ChordCorner* corner;
-  Parameter at;
+  const ChordNode<S>* node;
+  std::size_t k;
+
+  const ChordCorner& operator*() const { return node->corner(k); }
+  const ChordCorner* operator->() const { return &node->corner(k); }
+  Parameter at() const { return node->corner_parameter(k); }
 };
 
 /// A ray on its way through a part of a start patch.
@@ -75,13 +80,18 @@ class ChordSearch {
     }
     if ((!knows_pixels || options_.min_size == 0) && node.longest_chord() < epsilon) return false;
     if (node.splits() >= most_splits) return is_too_deep();
-    const typename Node::Shape& shape = node.shape(totals_);
-    const double deviation = options_.end_normals ? std::max(shape.deviation, shape.end_deviation) : shape.deviation;
-    const double silhouette = std::abs(shape.normal.dot(approach_.ray.direction));
-    return !(deviation <= epsilon * silhouette);
+    const double silhouette = std::abs(node.normal().dot(approach_.ray.direction));
+    return !(node.deviation(options_.end_normals) <= epsilon * silhouette);
   }
 
   const typename Node::Children& children(const Node& node) const { return node.children(hulls_, totals_); }
+
+  /// What the limit of a subpatch lies in, in the frame's coordinates.
+  Box hull(const Node& node) const {
+    Box box;
+    for (std::size_t i = 0; i < node.point_count(); ++i) box.add(frame_.project(node.point(i)));
+    return box.expanded(node.configuration().hull_expansion());
+  }
 
   /// Meets the chord face: a triangle, or a quad as two on its limit points.
   bool meet_chord_face(const Node& node) {
@@ -91,22 +101,23 @@ class ChordSearch {
     return is_met;
   }
 
-  static ChordPoint point(const Node& node, std::size_t k) { return {&node.corner(k), node.corner_parameter(k)}; }
+  using Point = ChordPoint<S>;
+  static Point point(const Node& node, std::size_t k) { return {&node, k}; }
 
   /// Takes the point where the ray meets a triangle, if it is the nearest so far.
-  bool meet(const std::array<ChordPoint, 3>& corners, int level) {
-    const auto meeting = triangle_ray_.meet(corners[0].corner->position, corners[1].corner->position,
-                                            corners[2].corner->position, approach_.ray.near, approach_.far());
+  bool meet(const std::array<Point, 3>& corners, int level) {
+    const auto meeting = triangle_ray_.meet(corners[0]->position, corners[1]->position, corners[2]->position,
+                                            approach_.ray.near, approach_.far());
     if (!meeting || !is_nearer(meeting->distance)) return false;
     ChordHit hit{meeting->distance, Vec3::Zero(), Vec3::Zero(), Parameter::Zero(), level};
     for (std::size_t i = 0; i < 3; ++i) {
-      hit.position += meeting->weights[i] * corners[i].corner->position;
-      hit.normal += meeting->weights[i] * corners[i].corner->normal;
-      hit.at += meeting->weights[i] * corners[i].at;
+      hit.position += meeting->weights[i] * corners[i]->position;
+      hit.normal += meeting->weights[i] * corners[i]->normal;
+      hit.at += meeting->weights[i] * corners[i].at();
     }
     if (hit.normal.isZero(0)) {
-      const Vec3& a = corners[0].corner->position;
-      hit.normal = (corners[1].corner->position - a).cross(corners[2].corner->position - a);
+      const Vec3& a = corners[0]->position;
+      hit.normal = (corners[1]->position - a).cross(corners[2]->position - a);
     }
     take(hit);
     return true;

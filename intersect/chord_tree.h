@@ -23,52 +23,40 @@ struct ChordCorner {
 /// A subpatch: its control points N(F), its corners' limit points, and hulls of those of its border curves that lie on
 /// the start patch's border. The corners of children are the parent's corners and the limit points of its edges'
 /// middles, bit for bit; across the border of start patches they agree bit for bit where limit masks are closed (they
-/// sum symmetrically), to rounding where they are derived. Children are made where refinement goes on; leaves, which
-/// are most of the subpatches, keep what the criteria ask for, and not the limit points that it was found by.
+/// sum symmetrically), to rounding where they are derived. Children are made where refinement goes on. Most subpatches
+/// are leaves; so they keep little: siblings share control points, and what follows from the path that leads to a
+/// subpatch is worked out when it is asked for.
 template <Scheme S>
 class ChordNode {
  public:
   using D = Domain<S::face_kind>;
   static constexpr std::size_t sides = D::corner_count;
-  struct Shape;
+  struct Root;
   struct Children;
-  /// Of an outer edge.
-  struct Border {
-    std::vector<Vec3> hull;  ///< points whose hull holds the border curve
-    double reach = 0;        ///< the largest distance of one of them from the chord
-  };
-  using Borders = std::array<Border, sides>;
 
   ChordNode() = default;
-  ~ChordNode() {
-    delete children_.load();
-    delete shape_.load();
-  }
+  ~ChordNode() { delete children_.load(); }
 
-  /// Makes it the root of a start patch, `level` splits below the control face; parameters are those of the face's (or
-  /// of the n-gon's corner's) patch: origin + scale * own.
-  void make_root(Patch<S> patch, int level, const Parameter& origin, double scale, BorderHulls hulls) {
-    patch_ = std::move(patch);
-    level_ = root_level_ = level;
-    origin_ = origin;
-    scale_ = scale;
-    own_corners_ = std::make_unique<std::array<ChordCorner, sides>>();
-    for (std::size_t k = 0; k < sides; ++k) {
-      (*own_corners_)[k] = limit_corner(patch_, static_cast<int>(k));
-      corners_[k] = &(*own_corners_)[k];
-    }
-    outer_ = (1u << sides) - 1;
-    make_borders(hulls);
-  }
+  /// Makes it the root of a start patch.
+  void make_root(std::unique_ptr<Root> root, BorderHulls hulls);
 
-  const Patch<S>& patch() const { return patch_; }
+  const Configuration<S>& configuration() const { return *configuration_; }
+  std::size_t point_count() const { return static_cast<std::size_t>(configuration_->point_count()); }
+  const Vec3& point(std::size_t i) const { return points_[order_ ? order_[i] : static_cast<int>(i)]; }
+  Patch<S> patch() const;
+
   const ChordCorner& corner(std::size_t k) const { return *corners_[k]; }
   int level() const { return level_; }
-  int splits() const { return level_ - root_level_; }
+  int splits() const { return splits_; }
   bool is_outer(std::size_t edge) const { return (outer_ >> edge & 1u) != 0; }
   bool is_outer() const { return outer_ != 0; }
-  /// Of an outer edge; edge k joins corner k to the next.
-  const Border& border(std::size_t edge) const { return (*borders_)[edge]; }
+  /// Bounds how far points of the hulls of outer edges are from their chords.
+  double border_reach() const { return border_reach_; }
+  /// Visits points whose hull holds the border curve of an outer edge; edge k joins corner k to the next. O(1) where
+  /// that is a polynomial.
+  template <class Visit>
+  void for_each_border_point(std::size_t edge, Visit visit) const;
+
   /// The unit normal of the chord face (of section 8.2 for quads); zero if it has none.
   Vec3 normal() const;
   /// The length of the longest chord, as it is or as a map of vectors makes it.
@@ -79,12 +67,15 @@ class ChordNode {
       square = std::max(square, map(Vec3(corner((k + 1) % sides).position - corner(k).position)).squaredNorm());
     return std::sqrt(square);
   }
+  /// How far the surface is seen to leave the chord face: cv of section 7.1, and, with `end_normals`, what the normals
+  /// at the ends of edges say of it. Found when first asked for; all must ask with the same `end_normals`. Thread-safe.
+  /// O(points).
+  double deviation(bool end_normals) const;
 
-  Parameter to_face(const Parameter& at) const { return origin_ + scale_ * at; }
-  Parameter corner_parameter(std::size_t k) const { return to_face({D::corners[k][0], D::corners[k][1]}); }
+  /// Of corner k, in the root's face. O(splits).
+  Parameter corner_parameter(std::size_t k) const;
 
-  /// Both are made now if nobody asked before. Thread-safe. O(points).
-  const Shape& shape(TreeTotals& totals) const;
+  /// Made now if nobody asked before. Thread-safe. O(points).
   const Children& children(BorderHulls hulls, TreeTotals& totals) const;
 
   struct Neighbour {
@@ -96,16 +87,13 @@ class ChordNode {
   template <class ChildrenOf>
   Neighbour neighbour(std::size_t edge, const ChildrenOf& children_of) const;
 
-  std::uint64_t own_bytes() const {
-    std::uint64_t bytes = patch_.points.capacity() * sizeof(Vec3) + (own_corners_ ? sizeof(*own_corners_) : 0);
-    if (borders_) {
-      bytes += sizeof(Borders);
-      for (const auto& border : *borders_) bytes += border.hull.capacity() * sizeof(Vec3);
-    }
-    return bytes;
-  }
+  /// Without its children and their points.
+  std::uint64_t own_bytes() const;
 
  private:
+  /// Of irregular outer edges; those of regular ones follow from the patch.
+  using Borders = std::array<std::vector<Vec3>, sides>;
+
   /// The limit at a corner, once splits towards it have left sharpness and n-gons behind. (A scheme that does not
   /// converge never gets there.)
   static ChordCorner limit_corner(Patch<S> patch, int k) {
@@ -116,9 +104,11 @@ class ChordNode {
     return {patch.points[static_cast<std::size_t>(k)], Vec3::Zero()};
   }
   /// The limit at the middle of edge e: corner e + 1 of child e in both splits.
-  static ChordCorner edge_middle(const Patch<S>& child, std::size_t e) {
-    return limit_corner(child, static_cast<int>((e + 1) % sides));
+  static ChordCorner edge_middle(const std::vector<Patch<S>>& children, std::size_t e) {
+    return limit_corner(children[e], static_cast<int>((e + 1) % sides));
   }
+  /// At the centre of a quad.
+  static ChordCorner centre(const std::vector<Patch<S>>& children) { return limit_corner(children[0], 2); }
 
   static double distance_from_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
     const Vec3 chord = b - a, way = point - a;
@@ -127,68 +117,110 @@ class ChordNode {
     return (way - share * chord).norm();
   }
 
-  void make_borders(BorderHulls hulls) {
-    // To a millionth of the edge, and a thirty-second where nothing becomes polynomial.
-    constexpr int splits = 5, halvings = 20;
-    if (!is_outer() || hulls == BorderHulls::none) return;
-    borders_ = std::make_unique<Borders>();
-    for (std::size_t edge = 0; edge < sides; ++edge) {
-      if (!is_outer(edge)) continue;
-      auto& [points, reach] = (*borders_)[edge];
-      const int number = static_cast<int>(edge);
-      if (hulls != BorderHulls::stand_ins || patch_.is_regular() || !add_stand_in(patch_, number, points))
-        add_border_bound(patch_, number, splits, halvings, points);
-      check_finite(points);
-      points.shrink_to_fit();
-      for (const Vec3& point : points)
-        reach =
-            std::max(reach, distance_from_segment(point, corner(edge).position, corner((edge + 1) % sides).position));
-    }
-  }
-
-  /// What `slot` holds, made now if nobody made it before.
-  template <class Value, class Make, class Made>
-  static const Value& once(std::atomic<Value*>& slot, Make make, Made made_first) {
-    if (const Value* known = slot.load(std::memory_order_acquire)) return *known;
-    std::unique_ptr<Value> made = make();
-    Value* expected = nullptr;
-    if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-    made_first(*made);
-    return *made.release();
-  }
-
-  std::unique_ptr<Shape> find_shape() const;
+  double find_deviation(bool end_normals) const;
   std::unique_ptr<Children> split(BorderHulls hulls) const;
+  void make_borders(const Patch<S>& patch, BorderHulls hulls);
 
-  Patch<S> patch_;
-  std::array<const ChordCorner*, sides> corners_{};              ///< the root's own, or what splits of ancestors added
-  std::unique_ptr<std::array<ChordCorner, sides>> own_corners_;  ///< the root's
-  std::unique_ptr<Borders> borders_;
-  Parameter origin_ = Parameter::Zero();
-  double scale_ = 1;
-  int level_ = 0, root_level_ = 0;
-  unsigned outer_ = 0;
-  int number_ = 0;  ///< among its siblings
+  const Configuration<S>* configuration_ = nullptr;
+  const Vec3* points_ = nullptr;                     ///< of all siblings
+  const int* order_ = nullptr;                       ///< which of them are the node's; null: the first
+  std::array<const ChordCorner*, sides> corners_{};  ///< the root's own, or what splits of ancestors added
   const ChordNode* parent_ = nullptr;
-  mutable std::atomic<Shape*> shape_{nullptr};
+  std::unique_ptr<const Root> root_;  ///< of the root
+  std::unique_ptr<Borders> borders_;
   mutable std::atomic<Children*> children_{nullptr};
+  mutable std::atomic<double> deviation_{-1};  ///< negative: not known yet
+  float border_reach_ = 0;
+  int level_ = 0;
+  std::uint8_t splits_ = 0, number_ = 0, outer_ = 0;  ///< since the root; among siblings; a bit per edge
 };
 
-/// How the surface is seen to leave the chord face.
+/// What a start patch's root is made of; parameters are those of the face's (or of the n-gon's corner's) patch: origin
+/// + scale * own.
 template <Scheme S>
-struct ChordNode<S>::Shape {
-  Vec3 normal;               ///< of the chord face
-  double deviation = 0;      ///< cv of section 7.1
-  double end_deviation = 0;  ///< what the normals at the ends of edges say of it
+struct ChordNode<S>::Root {
+  Patch<S> patch;
+  int level = 0;  ///< splits below the control face
+  Parameter origin = Parameter::Zero();
+  double scale = 1;
+  std::array<ChordCorner, sides> corners = {};
 };
 
-/// The four subpatches of a split, and the limit points that it adds.
+/// The four subpatches of a split, and the points that it adds.
 template <Scheme S>
 struct ChordNode<S>::Children {
   std::array<ChordCorner, sides> middles;     ///< of the edges
   std::array<ChordCorner, sides - 3> centre;  ///< of a quad
+  std::vector<Vec3> points;
   std::array<ChordNode, 4> nodes;
 };
+
+template <Scheme S>
+Patch<S> ChordNode<S>::patch() const {
+  Patch<S> patch{configuration_, {}};
+  patch.points.reserve(point_count());
+  for (std::size_t i = 0; i < point_count(); ++i) patch.points.push_back(point(i));
+  return patch;
+}
+
+template <Scheme S>
+std::uint64_t ChordNode<S>::own_bytes() const {
+  std::uint64_t bytes = 0;
+  if (root_) bytes += sizeof(Root) + root_->patch.points.capacity() * sizeof(Vec3);
+  if (borders_) {
+    bytes += sizeof(Borders);
+    for (const auto& hull : *borders_) bytes += hull.capacity() * sizeof(Vec3);
+  }
+  return bytes;
+}
+
+template <Scheme S>
+void ChordNode<S>::make_root(std::unique_ptr<Root> root, BorderHulls hulls) {
+  configuration_ = root->patch.configuration;
+  points_ = root->patch.points.data();
+  level_ = root->level;
+  for (std::size_t k = 0; k < sides; ++k) {
+    root->corners[k] = limit_corner(root->patch, static_cast<int>(k));
+    corners_[k] = &root->corners[k];
+  }
+  outer_ = (1u << sides) - 1;
+  make_borders(root->patch, hulls);
+  root_ = std::move(root);
+}
+
+template <Scheme S>
+void ChordNode<S>::make_borders(const Patch<S>& patch, BorderHulls hulls) {
+  // To a millionth of the start patch's edge, and a thirty-second of the node's where nothing becomes polynomial.
+  constexpr int splits = 5, halvings = 20;
+  if (!is_outer() || hulls == BorderHulls::none) return;
+  if (!patch.is_regular()) borders_ = std::make_unique<Borders>();
+  double reach = 0;
+  for (std::size_t edge = 0; edge < sides; ++edge) {
+    if (!is_outer(edge)) continue;
+    const int number = static_cast<int>(edge);
+    std::vector<Vec3> points;
+    if (hulls != BorderHulls::stand_ins || patch.is_regular() || !add_stand_in(patch, number, points))
+      add_border_bound(patch, number, splits, std::max(1, halvings - splits_), points);
+    check_finite(points);
+    for (const Vec3& point : points)
+      reach = std::max(reach, distance_from_segment(point, corner(edge).position, corner((edge + 1) % sides).position));
+    points.shrink_to_fit();
+    if (borders_) (*borders_)[edge] = std::move(points);
+  }
+  border_reach_ = std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
+}
+
+template <Scheme S>
+template <class Visit>
+void ChordNode<S>::for_each_border_point(std::size_t edge, Visit visit) const {
+  if (borders_) {
+    for (const Vec3& point : (*borders_)[edge]) visit(point);
+    return;
+  }
+  std::vector<Vec3> points;
+  add_border_bound(patch(), static_cast<int>(edge), 0, 0, points);
+  for (const Vec3& point : points) visit(point);
+}
 
 template <Scheme S>
 Vec3 ChordNode<S>::normal() const {
@@ -202,61 +234,73 @@ Vec3 ChordNode<S>::normal() const {
 }
 
 template <Scheme S>
-auto ChordNode<S>::shape(TreeTotals& totals) const -> const Shape& {
-  return once(
-      shape_, [&] { return find_shape(); }, [&](const Shape&) { totals.bytes += sizeof(Shape); });
+Parameter ChordNode<S>::corner_parameter(std::size_t k) const {
+  Parameter at(D::corners[k][0], D::corners[k][1]);
+  const ChordNode* node = this;
+  for (; node->parent_; node = node->parent_) at = D::to_parent(node->number_, at);
+  return node->root_->origin + node->root_->scale * at;
+}
+
+template <Scheme S>
+double ChordNode<S>::deviation(bool end_normals) const {
+  double known = deviation_.load(std::memory_order_relaxed);
+  if (known < 0) {
+    known = find_deviation(end_normals);
+    deviation_.store(known, std::memory_order_relaxed);  // all who ask find the same
+  }
+  return known;
+}
+
+template <Scheme S>
+double ChordNode<S>::find_deviation(bool end_normals) const {
+  const std::vector<Patch<S>> children = patch().children();
+  double deviation = 0;
+  const auto leave = [&](const ChordCorner& middle, const ChordCorner& a, const ChordCorner& b) {
+    deviation = std::max(deviation, distance_from_segment(middle.position, a.position, b.position));
+  };
+  for (std::size_t e = 0; e < sides; ++e) {
+    const ChordCorner &a = corner(e), &b = corner((e + 1) % sides);
+    check_finite(children[e].points);
+    leave(edge_middle(children, e), a, b);
+    if (!end_normals) continue;
+    // A parabola leaves its chord by a quarter of (chord . end normal).
+    for (const Vec3& normal : {a.normal, b.normal})
+      deviation = std::max(deviation, 0.25 * std::abs(normal.dot(b.position - a.position)));
+  }
+  if constexpr (sides == 4) leave(centre(children), corner(0), corner(2));  // the diagonal along which the quad is cut
+  return deviation;
 }
 
 template <Scheme S>
 auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> const Children& {
-  return once(
-      children_, [&] { return split(hulls); },
-      [&](const Children& made) {
-        std::uint64_t bytes = sizeof(Children);
-        for (const ChordNode& child : made.nodes) bytes += child.own_bytes();
-        totals.bytes += bytes;
-        ++totals.patches_split;
-      });
-}
-
-template <Scheme S>
-auto ChordNode<S>::find_shape() const -> std::unique_ptr<Shape> {
-  auto made = std::make_unique<Shape>();
-  made->normal = normal();
-  for (std::size_t e = 0; e < sides; ++e) {
-    const ChordCorner &a = corner(e), &b = corner((e + 1) % sides);
-    const Patch<S> child = patch_.child(static_cast<int>(e));
-    check_finite(child.points);
-    made->deviation =
-        std::max(made->deviation, distance_from_segment(edge_middle(child, e).position, a.position, b.position));
-    // A parabola leaves its chord by a quarter of (chord . end normal).
-    for (const Vec3& normal : {a.normal, b.normal})
-      made->end_deviation = std::max(made->end_deviation, 0.25 * std::abs(normal.dot(b.position - a.position)));
-    if (sides == 4 && e == 0)  // from the diagonal along which the quad is cut
-      made->deviation = std::max(made->deviation, distance_from_segment(limit_corner(child, 2).position,
-                                                                        corner(0).position, corner(2).position));
-  }
-  return made;
+  if (const Children* known = children_.load(std::memory_order_acquire)) return *known;
+  std::unique_ptr<Children> made = split(hulls);
+  Children* expected = nullptr;
+  if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
+  std::uint64_t bytes = sizeof(Children) + made->points.capacity() * sizeof(Vec3);
+  for (const ChordNode& child : made->nodes) bytes += child.own_bytes();
+  totals.bytes += bytes;
+  ++totals.patches_split;
+  return *made.release();
 }
 
 /// Edge e of the parent is edge e of child e and of child e + 1 in both splits.
 template <Scheme S>
 auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
   auto made = std::make_unique<Children>();
-  for (std::size_t k = 0; k < 4; ++k) {
-    made->nodes[k].patch_ = patch_.child(static_cast<int>(k));
-    check_finite(made->nodes[k].patch_.points);
-  }
-  for (std::size_t e = 0; e < sides; ++e) made->middles[e] = edge_middle(made->nodes[e].patch_, e);
-  if constexpr (sides == 4) made->centre[0] = limit_corner(made->nodes[0].patch_, 2);
+  const auto& split = configuration_->split();
+  const std::vector<Patch<S>> patches = patch().children(made->points);
+  check_finite(made->points);
+  for (std::size_t e = 0; e < sides; ++e) made->middles[e] = edge_middle(patches, e);
+  if constexpr (sides == 4) made->centre[0] = centre(patches);
   for (std::size_t k = 0; k < 4; ++k) {
     ChordNode& child = made->nodes[k];
-    const int number = static_cast<int>(k);
-    child.origin_ = to_face(D::to_parent(number, Parameter::Zero()));
-    child.scale_ = scale_ * D::scale(number);
+    child.configuration_ = split.children[k].configuration;
+    child.points_ = made->points.data();
+    child.order_ = split.children[k].points.data();
     child.level_ = level_ + 1;
-    child.root_level_ = root_level_;
-    child.number_ = number;
+    child.splits_ = static_cast<std::uint8_t>(splits_ + 1);
+    child.number_ = static_cast<std::uint8_t>(k);
     child.parent_ = this;
     if (k == sides) {  // the middle triangle
       for (std::size_t i = 0; i < sides; ++i) child.corners_[i] = &made->middles[(i + 1) % sides];
@@ -267,8 +311,8 @@ auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
     child.corners_[(k + 1) % sides] = &made->middles[k];
     if constexpr (sides == 4) child.corners_[(k + 2) % sides] = &made->centre[0];
     child.corners_[before] = &made->middles[before];
-    child.outer_ = outer_ & (1u << k | 1u << before);
-    child.make_borders(hulls);
+    child.outer_ = static_cast<std::uint8_t>(outer_ & (1u << k | 1u << before));
+    child.make_borders(patches[k], hulls);
   }
   return made;
 }

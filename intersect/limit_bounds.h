@@ -56,7 +56,7 @@ template <Scheme S>
 Box split_limit_bound(const Patch<S>& patch, int splits) {
   if (splits == 0 || patch.configuration->flat_net()) return limit_bound(patch);
   Box box;
-  for (int k = 0; k < patch.configuration->child_count(); ++k) box.add(split_limit_bound(patch.child(k), splits - 1));
+  for (const Patch<S>& child : patch.children()) box.add(split_limit_bound(child, splits - 1));
   return box;
 }
 

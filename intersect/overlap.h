@@ -158,9 +158,10 @@ bool has_positive_jacobian(const Patch<S>& patch, double error, int splits, int&
     if (const auto& regularity = patch.configuration->corner_regularity(k))
       if (regularity->holds_for(patch.points, error)) return true;
   if (splits == 0) return false;
-  for (int k = 0; k < patch.configuration->child_count(); ++k)
-    if (!has_positive_jacobian(patch.child(k), error, splits - 1, budget)) return false;
-  return true;
+  const std::vector<Patch<S>> children = patch.children();
+  return std::all_of(children.begin(), children.end(), [&](const Patch<S>& child) {
+    return has_positive_jacobian(child, error, splits - 1, budget);
+  });
 }
 
 /// The control net of some patches of one level that lie side by side. Points are told apart by their coordinates: a
@@ -211,7 +212,7 @@ bool has_planar_net(const Patch<S>& patch, const Vec3& normal) {
   for (int l = 1; l <= finest_level; ++l) {
     std::vector<Patch<S>> finer;
     for (const Patch<S>& coarse : level)
-      for (int k = 0; k < coarse.configuration->child_count(); ++k) finer.push_back(coarse.child(k));
+      for (Patch<S>& child : coarse.children()) finer.push_back(std::move(child));
     level = std::move(finer);
     if (JoinedNet(level).is_planar(normal)) return true;
   }

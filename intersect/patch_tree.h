@@ -163,7 +163,11 @@ template <Scheme S>
 auto PatchNode<S>::split(const BoxSpace& space) const -> std::unique_ptr<Children> {
   auto children = std::make_unique<Children>();
   std::array<Regular, 4> quarters;
-  if (is_regular()) quarters = regular_->template bezier<Regular>().split();
+  std::vector<Patch<S>> patches;
+  if (is_regular())
+    quarters = regular_->template bezier<Regular>().split();
+  else
+    patches = irregular_->children();
   for (std::size_t k = 0; k < 4; ++k) {
     PatchNode& child = children->nodes[k];
     child.place(*this, static_cast<int>(k));
@@ -171,7 +175,7 @@ auto PatchNode<S>::split(const BoxSpace& space) const -> std::unique_ptr<Childre
       child.regular_level_ = regular_level_;
       child.set(quarters[k]);
     } else {
-      child.set(irregular_->child(static_cast<int>(k)));
+      child.set(std::move(patches[k]));
     }
     children->boxes.set(k, {child.box_, space});
   }

@@ -94,12 +94,14 @@ ValidityCounts for_each_valid_part(const Patch<S>& start, Visit visit) {
       for (const ValidPart<S>& part : left) visit(part);
       break;
     }
-    for (const ValidPart<S>& part : left)
-      for (int k = 0; k < part.patch.configuration->child_count(); ++k) {
+    for (const ValidPart<S>& part : left) {
+      std::uint8_t k = 0;
+      for (Patch<S>& child : part.patch.children()) {
         std::vector<std::uint8_t> path = part.path;
-        path.push_back(static_cast<std::uint8_t>(k));
-        level.push_back({part.patch.child(k), std::move(path)});
+        path.push_back(k++);
+        level.push_back({std::move(child), std::move(path)});
       }
+    }
   }
   return counts;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// A configuration: the topology and sharpness around a face, shared by all patches that look alike.
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -38,6 +39,15 @@ class Configuration {
     const Configuration* configuration;
     SplitProgram program;
   };
+  /// All children at once.
+  struct Split {
+    struct Part {
+      const Configuration* configuration;
+      std::vector<int> points;  ///< which points of the split are the child's
+    };
+    SplitProgram program;  ///< makes every point that any child has, once
+    std::vector<Part> children;
+  };
 
   /// `neighbourhood` is in canonical numbers and has so many vertices.
   Configuration(Neighbourhood neighbourhood, std::size_t vertices, ConfigurationTable<S>& table)
@@ -50,6 +60,7 @@ class Configuration {
         table_(table) {}
   ~Configuration() {
     for (const auto& child : children_) delete child.load();
+    delete split_.load();
     for (const auto& rows : limit_rows_) delete rows.load();
     delete hull_expansion_.load();
     delete descents_.load();
@@ -98,9 +109,15 @@ class Configuration {
     });
   }
 
-  /// The split: child k's configuration and the program that makes its points. Thread-safe.
+  /// Child k's configuration and the program that makes its points. Thread-safe.
   const Child& child(int k) const {
-    return once(children_[static_cast<std::size_t>(k)], [&] { return table_.split(*this, k); });
+    return once(children_[static_cast<std::size_t>(k)], [&] { return table_.child(*this, k); });
+  }
+
+  /// The same children, whose nets overlap, by one program: 18 points in place of 4 x 12 for a regular triangle, 25 in
+  /// place of 4 x 16 for a quad. The same points to the last bit. Thread-safe.
+  const Split& split() const {
+    return once(split_, [&] { return table_.split(*this); });
   }
 
   /// The limit masks at corner k over the patch's points, derived from the split when first asked for. Empty unless the
@@ -162,6 +179,7 @@ class Configuration {
   mutable std::atomic<std::optional<FlatNet>*> flat_net_{nullptr};
   mutable std::atomic<std::vector<std::array<int, 2>>*> net_edges_{nullptr};
   mutable std::vector<std::atomic<Child*>> children_;
+  mutable std::atomic<Split*> split_{nullptr};
   mutable std::vector<std::atomic<std::optional<LimitRows>*>> limit_rows_;
   mutable std::vector<std::atomic<std::optional<CornerRegularity>*>> regularities_;
   ConfigurationTable<S>& table_;
@@ -194,13 +212,27 @@ class ConfigurationTable {
     return {slot.get(), std::move(form.vertices)};
   }
 
-  typename Configuration<S>::Child split(const Configuration<S>& parent, int k) {
-    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
-    Match match = this->match(refinement.child(k, rules_.radius()));
+  typename Configuration<S>::Child child(const Configuration<S>& parent, int k) {
     std::vector<RefinedVertex> wanted;
-    wanted.reserve(match.vertices.size());
-    for (const int vertex : match.vertices) wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
-    return {match.configuration, SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted)};
+    const auto* const configuration = match_child(parent, k, wanted);
+    return {configuration, SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted)};
+  }
+
+  typename Configuration<S>::Split split(const Configuration<S>& parent) {
+    typename Configuration<S>::Split split;
+    std::vector<RefinedVertex> points, of_child;
+    std::map<RefinedVertex, int> numbers;
+    for (int k = 0; k < parent.child_count(); ++k) {
+      auto& part = split.children.emplace_back();
+      part.configuration = match_child(parent, k, of_child);
+      for (const RefinedVertex& vertex : of_child) {
+        const auto [at, is_new] = numbers.try_emplace(vertex, static_cast<int>(points.size()));
+        if (is_new) points.push_back(vertex);
+        part.points.push_back(at->second);
+      }
+    }
+    split.program = SplitProgram::compile<S>(rules_, parent.neighbourhood(), points);
+    return split;
   }
 
   std::size_t size() const {
@@ -209,6 +241,15 @@ class ConfigurationTable {
   }
 
  private:
+  /// Child k's configuration; `points` becomes what its points are in the parent's neighbourhood.
+  const Configuration<S>* match_child(const Configuration<S>& parent, int k, std::vector<RefinedVertex>& points) {
+    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
+    const Match match = this->match(refinement.child(k, rules_.radius()));
+    points.clear();
+    for (const int vertex : match.vertices) points.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
+    return match.configuration;
+  }
+
   struct KeyHash {
     /// FNV-1a over the words of the key.
     std::size_t operator()(const std::vector<int>& key) const {

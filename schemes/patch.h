@@ -23,6 +23,26 @@ struct Patch {
     return result;
   }
 
+  /// All children, in their order; to the last bit those of child(). `made` becomes the points of all of them, as
+  /// Configuration::split() numbers them. O(points).
+  std::vector<Patch> children() const {
+    std::vector<Vec3> made;
+    return children(made);
+  }
+  std::vector<Patch> children(std::vector<Vec3>& made) const {
+    const auto& split = configuration->split();
+    made.resize(static_cast<std::size_t>(split.program.point_count()));
+    split.program.run(points.data(), made.data());
+    std::vector<Patch> result;
+    result.reserve(split.children.size());
+    for (const auto& part : split.children) {
+      Patch& child = result.emplace_back(Patch{part.configuration, {}});
+      child.points.reserve(part.points.size());
+      for (const int point : part.points) child.points.push_back(made[static_cast<std::size_t>(point)]);
+    }
+    return result;
+  }
+
   bool is_regular() const { return configuration->is_regular(); }
 
   /// The polynomial patch of a regular configuration.

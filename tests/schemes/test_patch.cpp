@@ -26,8 +26,13 @@ bool agrees(const SubdivisionMesh<S>& mesh, int face, const Patch<S>& patch,
             const std::vector<const SubdivisionMesh<S>*>& finer, std::size_t level) {
   if (!is_same(mesh.patch({face, 0}), patch)) return false;
   if (level == finer.size()) return true;
-  for (int k = 0; k < mesh.child_count(face); ++k)
-    if (!agrees(*finer[level], mesh.child_face(face, k), patch.child(k), finer, level + 1)) return false;
+  const std::vector<Patch<S>> children = patch.children();
+  if (children.size() != static_cast<std::size_t>(mesh.child_count(face))) return false;
+  for (int k = 0; k < mesh.child_count(face); ++k) {
+    const Patch<S>& child = children[static_cast<std::size_t>(k)];
+    if (!is_same(patch.child(k), child)) return false;
+    if (!agrees(*finer[level], mesh.child_face(face, k), child, finer, level + 1)) return false;
+  }
   return true;
 }
 

@@ -38,8 +38,13 @@ double distance(const SubdivisionMesh<S>& mesh, int face, const Patch<S>& patch,
     const Vec3& expected = mesh.point(mesh.face(face)[static_cast<std::size_t>(i)]);
     largest = std::max(largest, (patch.points[static_cast<std::size_t>(i)] - expected).norm());
   }
-  for (int k = 0; level < finer.size() && k < mesh.child_count(face); ++k)
-    largest = std::max(largest, distance(*finer[level], mesh.child_face(face, k), patch.child(k), finer, level + 1));
+  if (level == finer.size()) return largest;
+  const std::vector<Patch<S>> children = patch.children();
+  for (int k = 0; k < mesh.child_count(face); ++k) {
+    const Patch<S>& child = children[static_cast<std::size_t>(k)];
+    CHECK(child.points == patch.child(k).points);
+    largest = std::max(largest, distance(*finer[level], mesh.child_face(face, k), child, finer, level + 1));
+  }
   return largest;
 }
 
