@@ -1,7 +1,6 @@
 #pragma once
 /// A configuration: the topology and sharpness around a face, shared by all patches that look alike.
 #include <atomic>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -213,25 +212,33 @@ class ConfigurationTable {
   }
 
   typename Configuration<S>::Child child(const Configuration<S>& parent, int k) {
+    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
+    const Match match = this->match(refinement.child(k, rules_.radius()));
     std::vector<RefinedVertex> wanted;
-    const auto* const configuration = match_child(parent, k, wanted);
-    return {configuration, SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted)};
+    wanted.reserve(match.vertices.size());
+    for (const int vertex : match.vertices) wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
+    return {match.configuration, SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted)};
   }
 
   typename Configuration<S>::Split split(const Configuration<S>& parent) {
+    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
     typename Configuration<S>::Split split;
-    std::vector<RefinedVertex> points, of_child;
-    std::map<RefinedVertex, int> numbers;
+    std::vector<RefinedVertex> wanted;
+    std::vector<int> numbers;  // among those wanted, of the refinement's vertices
     for (int k = 0; k < parent.child_count(); ++k) {
-      auto& part = split.children.emplace_back();
-      part.configuration = match_child(parent, k, of_child);
-      for (const RefinedVertex& vertex : of_child) {
-        const auto [at, is_new] = numbers.try_emplace(vertex, static_cast<int>(points.size()));
-        if (is_new) points.push_back(vertex);
-        part.points.push_back(at->second);
+      Match match = this->match(refinement.child(k, rules_.radius()));
+      numbers.resize(refinement.vertices().size(), -1);
+      for (int& vertex : match.vertices) {
+        int& number = numbers[static_cast<std::size_t>(vertex)];
+        if (number < 0) {
+          number = static_cast<int>(wanted.size());
+          wanted.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
+        }
+        vertex = number;
       }
+      split.children.push_back({match.configuration, std::move(match.vertices)});
     }
-    split.program = SplitProgram::compile<S>(rules_, parent.neighbourhood(), points);
+    split.program = SplitProgram::compile<S>(rules_, parent.neighbourhood(), wanted);
     return split;
   }
 
@@ -241,15 +248,6 @@ class ConfigurationTable {
   }
 
  private:
-  /// Child k's configuration; `points` becomes what its points are in the parent's neighbourhood.
-  const Configuration<S>* match_child(const Configuration<S>& parent, int k, std::vector<RefinedVertex>& points) {
-    Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
-    const Match match = this->match(refinement.child(k, rules_.radius()));
-    points.clear();
-    for (const int vertex : match.vertices) points.push_back(refinement.vertices()[static_cast<std::size_t>(vertex)]);
-    return match.configuration;
-  }
-
   struct KeyHash {
     /// FNV-1a over the words of the key.
     std::size_t operator()(const std::vector<int>& key) const {

@@ -77,8 +77,11 @@ FaceSides Refinement::child_face(int k) {
 }
 
 Neighbourhood Refinement::child(int k, int radius) {
-  // A vertex that the face repeats has a ring for each of its corners.
-  if (k < parent_.face.size()) rings_[parent_.face.vertex(k)] = &parent_.rings[static_cast<std::size_t>(k)];
+  // A vertex that the face repeats has a ring for each of its corners; other children see the first of them.
+  const bool has_corner = k < parent_.face.size();
+  const Ring*& at_corner = rings_[parent_.face.vertex(has_corner ? k : 0)];
+  const Ring* const first = at_corner;
+  if (has_corner) at_corner = &parent_.rings[static_cast<std::size_t>(k)];
   Neighbourhood result;
   result.face = child_face(k);
   std::vector<int> inner;
@@ -93,6 +96,7 @@ Neighbourhood Refinement::child(int k, int radius) {
           if (std::find(inner.begin(), inner.end(), face.vertex(i)) == inner.end()) inner.push_back(face.vertex(i));
     }
   }
+  at_corner = first;
   return result;
 }
 

@@ -114,6 +114,41 @@ TEST_CASE("The silhouette band explains what a shift across the ray does, and no
   for (const double off : {-0.11, 0.11}) CHECK_FALSE(is_near(scene, ray.origin + (5 + off) * along, along, width));
 }
 
+TEST_CASE("Two sheets that a ray grazes from opposite sides are missed each by itself", "[tools][bench]") {
+  // Seen from above they overlap by 0.02, and no more if they are one folded sheet.
+  const std::vector<Vec3> points{{-1, -1, 0},     {0.01, -1, 0}, {0.01, 1, 0}, {-1, 1, 0},
+                                 {-0.01, -1, -2}, {1, -1, -2},   {1, 1, -2},   {-0.01, 1, -2}};
+  const Scene two(mesh_of(points, {{0, 1, 2, 3}, {4, 5, 6, 7}}), "bilinear");
+  const Scene folded(mesh_of(points, {{0, 1, 2, 3}, {2, 1, 4, 7}, {4, 5, 6, 7}}), "bilinear");
+  const Ray ray = down(0, 0.2);  // meets z = 0 at a distance of 5, -2 at 7
+  const double width = 0.1;
+  for (const Scene* scene : {&two, &folded}) {
+    const SilhouetteBand band = silhouette_band(*scene, ray, width);
+    CHECK_FALSE(band.explains(std::nullopt, width));
+    CHECK_FALSE(band.lets_through(8, width));
+    CHECK(leads_past(*scene, ray, width) == (scene == &two));
+    CHECK(leads_past(*scene, ray, width, 8) == (scene == &two));
+    CHECK(leads_past(*scene, ray, width, 6));
+  }
+  CHECK(leads_past(two, ray, 0.011));
+  CHECK_FALSE(leads_past(two, ray, 0.009));
+  CHECK_FALSE(leads_past(plate(), ray, width));
+  CHECK(leads_past(plate(), ray, width, 5.05));
+
+  // An interval that is shorter than two widths may end before its chords begin.
+  Ray brief = ray;
+  for (const double half : {0.04, 0.06}) {  // in units of the direction's length, 2
+    brief.tmin = 2.5 - half, brief.tmax = 2.5 + half;
+    CHECK(leads_past(plate(), brief, width) == (half < 0.05));
+  }
+
+  const Contender chords{.kind = ContenderKind::chord, .chord = {.epsilon = 0.05, .min_size = 0}};  // a band of 0.1
+  const std::vector<Ray> rays{ray};
+  const Answers lost(1);
+  CHECK(compare(chords, two, rays, trace(rays, two), lost).lost_outside == 0);
+  CHECK(compare(chords, folded, rays, trace(rays, folded), lost).lost_outside == 1);
+}
+
 TEST_CASE("The band's width is that of epsilon or of the smallest patch that is refined", "[tools][bench]") {
   const ChordOptions options{.epsilon = 0.03, .min_size = 2};
   CHECK(band_width(options, {}, 7) == Approx(0.06));

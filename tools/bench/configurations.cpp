@@ -45,10 +45,8 @@ Figures measure(const ControlMesh& control, const S& scheme) {
   while (!open.empty()) {
     const Configuration<S>* next = open.back();
     open.pop_back();
-    for (int k = 0; k < next->child_count(); ++k) {
-      const Configuration<S>* child = next->child(k).configuration;
-      if (known.insert(child).second) open.push_back(child);
-    }
+    for (const auto& child : next->split().children)
+      if (known.insert(child.configuration).second) open.push_back(child.configuration);
   }
   figures.split_ms = milliseconds_since(start);
   figures.all = known.size();

@@ -17,11 +17,11 @@ struct Judged {
 
 bool is_explained(const Scene& exact, const Ray& ray, double width, const std::optional<Answer>& answer) {
   const SilhouetteBand band = silhouette_band(exact, ray, width);
-  if (!answer) return band.explains({}, width);
+  if (!answer) return band.explains({}, width) || leads_past(exact, ray, width);
   const double distance = answer->t * ray.direction.norm();
   return band.explains(distance, width) ||
-         (band.lets_through(distance, width) &&
-          is_near(exact, ray.origin + answer->t * ray.direction, answer->normal, width));
+         (is_near(exact, ray.origin + answer->t * ray.direction, answer->normal, width) &&
+          (band.lets_through(distance, width) || leads_past(exact, ray, width, distance)));
 }
 
 Judged judge(const Contender& contender, const Scene& exact, const Ray& ray, const std::optional<Answer>& expected,

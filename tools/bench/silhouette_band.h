@@ -40,14 +40,24 @@ struct SilhouetteBand {
   bool lets_through(double distance, double width) const { return any_miss || farthest >= distance - width; }
 };
 
+/// True if a way past the surface leads along a ray to `distance` (a length along it; none: to its end) within `width`
+/// of it: on one of the band's shifts, then across, meeting nothing, to a place between two of the ray's own hits, on
+/// along another shift, and so on. The ray's interval and the distance are taken a width shorter at either end.
+///
+/// Chords move each sheet by itself: a ray that grazes two sheets, which cover it from opposite sides, may miss the
+/// chords of both, although every shift that leaves the one behind runs into the other. A body whose chords cannot be
+/// missed closes all ways. O(88 h^2) queries for h hits.
+bool leads_past(const Scene& exact, Ray ray, double width, const std::optional<double>& distance = {});
+
 /// True if the surface is found within `width` of a point: along a unit normal or against it, from the point and from
 /// eight points half as far around it.
 bool is_near(const Scene& exact, const Vec3& point, const Vec3& normal, double width);
 
 /// 264 queries, none shorter. A ray whose answer is not the exact one lies *outside of the band* if this does not
-/// explain the answer, nor do two shifts: a hit is also as it should be if one ray of the band is let through to it,
-/// and the surface is near it. (A tangent ray dips into a sheet by 1e-8 and runs on beside it; chords that miss the dip
-/// may meet it a little farther on, where every shift that meets the sheet has met it before.)
+/// explain the answer, nor do several shifts: a miss is also as it should be if a way through the band leads past all,
+/// a hit if one ray of the band is let through to it, or a way leads there, and the surface is near it. (A tangent ray
+/// dips into a sheet by 1e-8 and runs on beside it; chords that miss the dip may meet it a little farther on, where
+/// every shift that meets the sheet has met it before.)
 SilhouetteBand silhouette_band(const Scene& exact, const Ray& ray, double width);
 
 }  // namespace shaolin
