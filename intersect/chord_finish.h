@@ -192,7 +192,7 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
   template <Query query>
   void visit(const Element& element);
   void meet_leaf(const Node& node);
-  void meet_gap(const Node& finer, std::size_t edge, int level);
+  void meet_gap(const Node& leaf, const Node& finer, std::size_t edge);
   void meet_border(const Node& node, std::size_t edge);
   std::optional<Element> w_case(const Node& node, std::size_t edge, const Vec3& from, const Vec3& middle,
                                 const Vec3& to);
@@ -302,25 +302,25 @@ void ChordFinish<S>::Search::meet_leaf(const Node& node) {
     const auto neighbour = node.neighbour(edge, [&](const Node& coarse) {
       return this->is_refined(coarse) || is_reactivated(coarse) ? &this->children(coarse) : nullptr;
     });
-    if (neighbour.node) meet_gap(*neighbour.node, neighbour.edge, node.level());
+    if (neighbour.node) meet_gap(node, *neighbour.node, neighbour.edge);
   }
 }
 
 /// The polygon between the chord of a leaf's edge and the edges of its finer neighbour, as triangles: each between an
 /// edge and its two halves.
 template <Scheme S>
-void ChordFinish<S>::Search::meet_gap(const Node& finer, std::size_t edge, int level) {
+void ChordFinish<S>::Search::meet_gap(const Node& leaf, const Node& finer, std::size_t edge) {
   if (!this->is_refined(finer) && !is_reactivated(finer)) return;
   const typename Node::Children& children = this->children(finer);
   const std::size_t next = (edge + 1) % sides;
   const Node &first = children.nodes[edge], &second = children.nodes[next];
   ++approach_.counters.gap_polygons;
-  if (this->meet({this->point(finer, edge), this->point(first, next), this->point(finer, next)}, level))
+  if (this->meet(leaf, {this->point(finer, edge), this->point(first, next), this->point(finer, next)}, true))
     ++approach_.counters.gap_polygons_hit;
   const Vec3 from = frame_.project(finer.corner(edge).position), to = frame_.project(finer.corner(next).position);
   const Vec3 middle = frame_.project(children.middles[edge].position);
-  if (crossing(from, middle)) meet_gap(first, edge, level);
-  if (crossing(middle, to)) meet_gap(second, edge, level);
+  if (crossing(from, middle)) meet_gap(leaf, first, edge);
+  if (crossing(middle, to)) meet_gap(leaf, second, edge);
 }
 
 /// Section 7.3: the ray meets the border area if it passes through the hull of the border curve, seen along the ray.
@@ -342,11 +342,10 @@ void ChordFinish<S>::Search::meet_border(const Node& node, std::size_t edge) {
   const double distance = from.z() + share * chord.z();
   if (!this->is_nearer(distance)) return;
   ++approach_.counters.border_areas_hit;
-  ChordHit hit{distance, approach_.ray.origin + distance * approach_.ray.direction,
-               (1 - share) * a.normal + share * b.normal,
-               (1 - share) * node.corner_parameter(edge) + share * node.corner_parameter(next), node.level()};
-  if (hit.normal.isZero(0)) hit.normal = node.normal();
-  this->take(hit);
+  this->take(
+      {distance, approach_.ray.origin + distance * approach_.ray.direction, (1 - share) * a.normal + share * b.normal,
+       (1 - share) * node.corner_parameter(edge) + share * node.corner_parameter(next), node.level()},
+      node.normal());
 }
 
 }  // namespace shaolin

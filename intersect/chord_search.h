@@ -13,7 +13,8 @@
 
 namespace shaolin {
 
-/// Where a ray meets chord faces: positions and normals are interpolated from the corners' limits.
+/// Where a ray meets chord faces: positions and normals are interpolated from the corners' limits (but see
+/// ChordSearch::take()).
 struct ChordHit {
   double distance;
   Vec3 position;
@@ -96,30 +97,29 @@ class ChordSearch {
   /// Meets the chord face: a triangle, or a quad as two on its limit points.
   bool meet_chord_face(const Node& node) {
     ++approach_.counters.chord_tests;
-    bool is_met = meet({point(node, 0), point(node, 1), point(node, 2)}, node.level());
-    if constexpr (sides == 4) is_met |= meet({point(node, 0), point(node, 2), point(node, 3)}, node.level());
+    bool is_met = meet(node, {point(node, 0), point(node, 1), point(node, 2)});
+    if constexpr (sides == 4) is_met |= meet(node, {point(node, 0), point(node, 2), point(node, 3)});
     return is_met;
   }
 
   using Point = ChordPoint<S>;
   static Point point(const Node& node, std::size_t k) { return {&node, k}; }
 
-  /// Takes the point where the ray meets a triangle, if it is the nearest so far.
-  bool meet(const std::array<Point, 3>& corners, int level) {
+  /// Takes the point where the ray meets a triangle, if it is the nearest so far: of a leaf's chord face, or of a gap
+  /// polygon beside it.
+  bool meet(const Node& leaf, const std::array<Point, 3>& corners, bool is_gap = false) {
     const auto meeting = triangle_ray_.meet(corners[0]->position, corners[1]->position, corners[2]->position,
                                             approach_.ray.near, approach_.far());
     if (!meeting || !is_nearer(meeting->distance)) return false;
-    ChordHit hit{meeting->distance, Vec3::Zero(), Vec3::Zero(), Parameter::Zero(), level};
+    ChordHit hit{meeting->distance, Vec3::Zero(), Vec3::Zero(), Parameter::Zero(), leaf.level()};
     for (std::size_t i = 0; i < 3; ++i) {
       hit.position += meeting->weights[i] * corners[i]->position;
       hit.normal += meeting->weights[i] * corners[i]->normal;
       hit.at += meeting->weights[i] * corners[i].at();
     }
-    if (hit.normal.isZero(0)) {
-      const Vec3& a = corners[0]->position;
-      hit.normal = (corners[1]->position - a).cross(corners[2]->position - a);
-    }
-    take(hit);
+    const Vec3& a = corners[0]->position;
+    const Vec3 flat = (corners[1]->position - a).cross(corners[2]->position - a);
+    take(hit, is_gap ? leaf.normal() : flat);
     return true;
   }
 
@@ -129,7 +129,15 @@ class ChordSearch {
            (approach_.far_is_hit() ? distance < approach_.far() : distance <= approach_.far());
   }
 
-  void take(ChordHit hit) {
+  /// Takes a hit on a chord face, or beside one, where a gap polygon or a border area is met; these are slivers that
+  /// face any way, so the side from which the ray comes is that of the leaf's chord face. Along outlines, and beside
+  /// creases narrower than the leaf, a face can look at the ray whose interpolated normal looks away: faces turn by
+  /// leaps, normals gradually. Who shades the side that is seen would turn such a normal round, into the body. There,
+  /// as where corners have no normals, the face's own stands in; so a normal looks at the ray where the face does, and
+  /// away where that does.
+  void take(ChordHit hit, const Vec3& face_normal) {
+    const Vec3& direction = approach_.ray.direction;
+    if (hit.normal.isZero(0) || hit.normal.dot(direction) * face_normal.dot(direction) < 0) hit.normal = face_normal;
     hit.normal = hit.normal.stableNormalized();
     found = hit;
     approach_.shorten(hit.distance);

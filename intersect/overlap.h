@@ -159,9 +159,8 @@ bool has_positive_jacobian(const Patch<S>& patch, double error, int splits, int&
       if (regularity->holds_for(patch.points, error)) return true;
   if (splits == 0) return false;
   const std::vector<Patch<S>> children = patch.children();
-  return std::all_of(children.begin(), children.end(), [&](const Patch<S>& child) {
-    return has_positive_jacobian(child, error, splits - 1, budget);
-  });
+  return std::all_of(children.begin(), children.end(),
+                     [&](const Patch<S>& child) { return has_positive_jacobian(child, error, splits - 1, budget); });
 }
 
 /// The control net of some patches of one level that lie side by side. Points are told apart by their coordinates: a

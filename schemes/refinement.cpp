@@ -31,16 +31,14 @@ int Refinement::vertex(const RefinedVertex& from) {
   return at->second;
 }
 
-/// The next level's face of that identifier; its lists are kept once.
-FaceSides Refinement::made(int id, std::initializer_list<int> vertices, std::initializer_list<int> sides) {
-  const auto [at, is_new] = children_.try_emplace(id);
-  if (is_new) {
-    std::array<int, 8>& lists = lists_.emplace_back();
-    std::copy(vertices.begin(), vertices.end(), lists.begin());
-    std::copy(sides.begin(), sides.end(), lists.begin() + 4);
-    at->second = FaceSides(id, lists.data(), lists.data() + 4, static_cast<int>(vertices.size()));
+/// The next level's face of that identifier, whose vertices and sides `lists` tells if it is new; they are kept once.
+template <class Lists>
+FaceSides Refinement::made(int id, int size, Lists lists) {
+  if (static_cast<std::size_t>(id) == children_.size()) {
+    const std::array<int, 8>& kept = lists_.emplace_back(lists());
+    children_.emplace_back(id, kept.data(), kept.data() + 4, size);
   }
-  return at->second;
+  return children_[static_cast<std::size_t>(id)];
 }
 
 /// The child of `parent` at its corner in place `at`, seen from the refined vertex `first`.
@@ -48,24 +46,26 @@ FaceSides Refinement::corner_face(const FaceSides& parent, int at, int first) {
   const int size = parent.size(), leaving = parent.side(at), entering = parent.side((at + size - 1) % size);
   const int corner = parent.vertex(at);
   const int id = named(face_ids_, {0, parent.id(), leaving});
-  const auto child = [&] {
-    if (kind_ == FaceKind::quad)
-      return made(
-          id, {from_vertex(corner), from_edge(leaving), from_face(parent.id()), from_edge(entering)},
-          {half(leaving, corner), inner(parent.id(), leaving), inner(parent.id(), entering), half(entering, corner)});
-    return made(id, {from_vertex(corner), from_edge(leaving), from_edge(entering)},
-                {half(leaving, corner), inner(parent.id(), parent.side((at + 1) % 3)), half(entering, corner)});
+  const auto quad = [&]() -> std::array<int, 8> {
+    return {from_vertex(corner),   from_edge(leaving),          from_face(parent.id()),       from_edge(entering),
+            half(leaving, corner), inner(parent.id(), leaving), inner(parent.id(), entering), half(entering, corner)};
   };
-  return seen_from_vertex(child(), first);
+  const auto triangle = [&]() -> std::array<int, 8> {
+    const int opposite = parent.side((at + 1) % 3);
+    return {from_vertex(corner),   from_edge(leaving),           from_edge(entering),    0,
+            half(leaving, corner), inner(parent.id(), opposite), half(entering, corner), 0};
+  };
+  return seen_from_vertex(kind_ == FaceKind::quad ? made(id, 4, quad) : made(id, 3, triangle), first);
 }
 
 /// The middle child of a triangle, seen from the refined vertex `first`. The edge between the midpoints of two sides
 /// runs along the third.
 FaceSides Refinement::middle_face(const FaceSides& parent, int first) {
   const int id = parent.id(), a = parent.side(0), b = parent.side(1), c = parent.side(2);
-  const FaceSides child = made(named(face_ids_, {1, id, 0}), {from_edge(b), from_edge(c), from_edge(a)},
-                               {inner(id, a), inner(id, b), inner(id, c)});
-  return seen_from_vertex(child, first);
+  const auto middle = [&]() -> std::array<int, 8> {
+    return {from_edge(b), from_edge(c), from_edge(a), 0, inner(id, a), inner(id, b), inner(id, c), 0};
+  };
+  return seen_from_vertex(made(named(face_ids_, {1, id, 0}), 3, middle), first);
 }
 
 FaceSides Refinement::child_face(int k) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <deque>
-#include <initializer_list>
 #include <map>
 #include <memory_resource>
 #include <tuple>
@@ -56,7 +55,8 @@ class Refinement {
   FaceSides child_face(int k);
   FaceSides corner_face(const FaceSides& parent, int at, int first);
   FaceSides middle_face(const FaceSides& parent, int first);
-  FaceSides made(int id, std::initializer_list<int> vertices, std::initializer_list<int> sides);
+  template <class Lists>
+  FaceSides made(int id, int size, Lists lists);
 
   /// An edge as a spoke of a ring.
   struct Place {
@@ -83,8 +83,8 @@ class Refinement {
   std::pmr::map<RefinedVertex, int> numbers_{&memory_};
   std::vector<RefinedVertex> vertices_;
   Names edge_ids_{&memory_}, face_ids_{&memory_};
-  std::pmr::map<int, FaceSides> children_{&memory_};     ///< the next level's faces by identifier
-  std::pmr::deque<std::array<int, 8>> lists_{&memory_};  ///< that they look at
+  std::pmr::deque<FaceSides> children_{&memory_};        ///< the next level's faces by identifier
+  std::pmr::deque<std::array<int, 8>> lists_{&memory_};  ///< that they look at: four vertices, four sides
 };
 
 }  // namespace shaolin

@@ -143,6 +143,37 @@ TEST_CASE("Rays aimed at edges and vertices meet the chord faces there", "[inter
   }
 }
 
+TEST_CASE("A hit's normal is on the side of its chord face", "[intersect][chord]") {
+  // Chord faces of whole patches, met so flat that many interpolated normals look to the other side.
+  for (const Method method : {Method::chord, Method::a3})
+    for (const Model& model : models()) {
+      const Reference reference(model);
+      CAPTURE(model.name, model.scheme);
+      SceneOptions options = by_chords(reference.size, method);
+      options.chord.valid_patches = false;
+      const Scene chords = reference.scene(options);
+      const LimitSurface& surface = chords.surface();
+      const double off = 1e-6 * reference.size;
+      for_each_patch(surface, [&](int face, int sub) {
+        std::array<Vec3, 3> corners;  // of a triangle, or of half a quad
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = surface.evaluate(on_side(surface, face, sub, k, 0))->position;
+        const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3;
+        const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+        for (const Vec3& corner : corners)
+          for (const double side : {-0.02, 0.02})
+            for (const double way : {-1.0, 1.0}) {
+              Ray ray = ray_at(centre, way * (corner - centre).normalized() + side * normal, off);
+              ray.tmax = 2 * off;  // where no other face is
+              ray.footprint.width = reference.size;
+              const auto hit = chords.intersect(ray);
+              CAPTURE(face, sub, side, way);
+              REQUIRE(hit);
+              REQUIRE(hit->sample.normal.dot(ray.direction) * side > 0);
+            }
+      });
+    }
+}
+
 TEST_CASE("Without W-cases rays are lost", "[intersect][chord]") {
   ChordOptions parts;
   parts.w_cases = false;

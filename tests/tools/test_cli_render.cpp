@@ -167,6 +167,26 @@ TEST_CASE("render counts what chords do", "[tools][cli]") {
   CHECK(chord.at("depth_bounds") == 0);
 }
 
+TEST_CASE("Chord faces are shaded on the side and in the light of the surface", "[tools][cli]") {
+  const Folder folder;
+  const auto picture = [&](const std::vector<std::string>& method) {
+    std::vector<std::string> arguments{"render", data_file("rook.obj"), "-o", folder / "out.exr", "--size", "96x96"};
+    arguments.insert(arguments.end(), method.begin(), method.end());
+    REQUIRE(folder.run(arguments).status == 0);
+    return ExrImage(folder / "out.exr");
+  };
+  const ExrImage exact = picture({}), chords = picture({"--chord", "0.01"});
+  std::size_t alike = 0, lit_otherwise = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (exact.id("face", i) == none || chords.id("face", i) == none) continue;
+    if (exact.vector("N", i).dot(chords.vector("N", i)) < 0.985) continue;  // 10 degrees; creases are smeared
+    ++alike;
+    lit_otherwise += std::abs(exact.value("G", i) - chords.value("G", i)) > 0.1;
+  }
+  CHECK(alike > 1500);
+  CHECK(lit_otherwise < 15);  // on the edges of shadows
+}
+
 TEST_CASE("render says what is wrong with a tolerance", "[tools][cli]") {
   const Folder folder;
   const auto refused = [&](const std::vector<std::string>& method, const std::string& why) {

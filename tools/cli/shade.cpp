@@ -1,6 +1,7 @@
 #include "tools/cli/shade.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace shaolin {
@@ -12,6 +13,10 @@ const Vec3 sky_color(0.36, 0.42, 0.52);
 const Vec3 ground_color(0.20, 0.17, 0.15);
 constexpr double gloss = 0.10;
 constexpr double gloss_exponent = 48;
+
+/// An arc that turns by a right angle leaves its chord by tan(pi / 8) / 2 of the chord's length: where a surface turns
+/// no more within them, two chord faces of one size lie no farther apart than this share of it.
+constexpr double bulge = std::numbers::sqrt2 - 1;  // tan(pi / 8)
 
 /// The largest principal curvature, or 0 where derivatives are missing: of the shape operator from both fundamental
 /// forms (do Carmo 1976, section 3.3).
@@ -37,6 +42,7 @@ PointLight key_light(const View& view) {
 Shader::Seen::Seen(const Ray& ray, const Hit& hit)
     : position(hit.sample.position),
       normal(hit.sample.normal.dot(ray.direction) <= 0 ? hit.sample.normal : Vec3(-hit.sample.normal)),
+      facing(-normal.dot(ray.direction) / ray.direction.norm()),
       width(ray.footprint.at(hit.t * ray.direction.norm())),
       curvature(largest_curvature(hit.sample)) {}
 
@@ -47,18 +53,21 @@ Shader::Shader(const Scene& scene, const View& view, Look look, const SceneOptio
   // Far above the rounding of a hit's position, far below what a pixel shows.
   offset_ = 1e-6 * (bounds.upper - bounds.lower).norm();
   if (options.method == Method::chord || options.method == Method::a3) {
-    tolerance_ = 2 * options.chord.epsilon;  // both rays may be off the surface by as much, one to each side
-    pixels_ = options.chord.min_size;
+    tolerance_ = options.chord.epsilon;
+    pixels_ = bulge * options.chord.min_size;
   }
 }
 
+/// Both rays meet chord faces, each its own. Where epsilon ends refinement, a face is off the surface by no more than
+/// epsilon along the ray that meets it, which is epsilon times the ray's cosine across the surface; where pixels do, by
+/// its bulge. So much lies between the two faces across the surface, and along the leaving ray as much over its cosine.
 Ray Shader::leaving(const Seen& seen, const Vec3& direction) const {
-  constexpr double flattest = 0.05;  // along the surface a ray does not get off it within twenty times the clearance
-  const double length = direction.norm(), clearance = tolerance_ + pixels_ * seen.width;
+  constexpr double flattest = 1e-3;  // light that comes flatter adds less than a picture shows
+  const double length = direction.norm(), rise = std::max(seen.normal.dot(direction) / length, flattest);
   Ray ray;
   ray.origin = seen.position + offset_ * seen.normal;
   ray.direction = direction;
-  ray.tmin = clearance / std::max(seen.normal.dot(direction), flattest * length);
+  ray.tmin = (tolerance_ * (seen.facing + rise) + pixels_ * seen.width) / (rise * length);
   ray.footprint.width = seen.width;
   return ray;
 }

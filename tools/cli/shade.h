@@ -32,8 +32,9 @@ class Shader {
   /// A point of the surface as a ray sees it.
   struct Seen {
     Vec3 position;
-    Vec3 normal;   ///< on the side of the surface that is seen
-    double width;  ///< of the ray's footprint
+    Vec3 normal;    ///< on the side of the surface that is seen
+    double facing;  ///< the cosine between the normal and the way back along the ray
+    double width;   ///< of the ray's footprint
     double curvature;
 
     Seen(const Ray& ray, const Hit& hit);
@@ -51,7 +52,7 @@ class Shader {
   Look look_;  ///< with the key light, if there are no others
   Vec3 up_;
   double offset_;                      ///< rays from a surface start this far off it
-  double tolerance_ = 0, pixels_ = 0;  ///< and meet nothing nearer to it than this length and so many pixels
+  double tolerance_ = 0, pixels_ = 0;  ///< how far chord faces are off it: see leaving()
 };
 
 }  // namespace shaolin
