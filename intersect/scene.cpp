@@ -1,6 +1,8 @@
 #include "scene.h"
 
-#include <tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <atomic>
 #include <unordered_set>
@@ -8,6 +10,7 @@
 #include "../schemes/errors.h"
 #include "bvh.h"
 #include "placement.h"
+#include "ray_order.h"
 
 namespace shaolin {
 
@@ -39,6 +42,27 @@ class Scene::Implementation {
     ++local.rays;
     local.hits += static_cast<bool>(answer);
     return answer;
+  }
+
+  template <class Answer, class Query>
+  std::vector<Answer> counted(std::span<const Ray> rays, Query query) const {
+    constexpr std::size_t grain = 64;  // rays that a thread takes at a time
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      try {
+        check(rays[i]);
+      } catch (const InputError& error) {
+        throw InputError("ray " + std::to_string(i) + ": " + error.what());
+      }
+    }
+    const std::vector<std::uint32_t> order = coherent_order(rays, bounds_);
+    std::vector<Answer> answers(rays.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), grain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const std::uint32_t ray = order[i];
+        answers[ray] = counted(rays[ray], query);
+      }
+    });
+    return answers;
   }
 
   std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const {
@@ -198,6 +222,12 @@ std::optional<Hit> Scene::intersect(const Ray& ray) const {
   return implementation_->counted(ray, &Implementation::intersect);
 }
 bool Scene::occluded(const Ray& ray) const { return implementation_->counted(ray, &Implementation::occluded); }
+std::vector<std::optional<Hit>> Scene::intersect(std::span<const Ray> rays) const {
+  return implementation_->counted<std::optional<Hit>>(rays, &Implementation::intersect);
+}
+std::vector<char> Scene::occluded(std::span<const Ray> rays) const {
+  return implementation_->counted<char>(rays, &Implementation::occluded);
+}
 const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }
 Box Scene::bounds() const { return implementation_->bounds(); }

@@ -2,6 +2,7 @@
 /// The public face of the intersector: objects and where they stand in, queries on their limit surfaces out.
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ class Scene {
 
   /// True if any point of a surface lies on the ray. Throws as intersect() does; cheaper.
   bool occluded(const Ray& ray) const;
+
+  /// Many rays, coherent or not, on as many threads as oneTBB gives: answer i is that to rays[i] alone, bit for bit.
+  /// They are traced in an order in which rays follow each other that are likely to meet the same patches. Throw
+  /// InputError that names the first ray that intersect() refuses, before any is traced. O(n log n) in addition.
+  std::vector<std::optional<Hit>> intersect(std::span<const Ray> rays) const;
+  /// The same; 1 where any point of a surface lies on the ray. (Of char, for std::vector<bool> shares bytes.)
+  std::vector<char> occluded(std::span<const Ray> rays) const;
 
   const std::vector<Instance>& instances() const;
 
