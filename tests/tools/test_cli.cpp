@@ -97,16 +97,15 @@ TEST_CASE("usage errors exit with 2 and write nothing", "[tools][cli]") {
 
 TEST_CASE("an output that is another output's file, or an input's, is a usage error", "[tools][cli]") {
   const Folder folder;
-  const std::string model = folder.write("cube.obj", cube), exr = folder / "out.exr",
-                    dotted = folder / "./x/../out.exr";
+  const std::string model = folder.write("cube.obj", cube), image = folder / "image", dotted = folder / "./x/../image";
   const std::string rays = folder.write("rays.csv", "0,0,5,0,0,-1\n"), params = folder.write("params.csv", "0,0,0,0\n");
   std::filesystem::create_symlink("rays.csv", folder / "link.csv");
   const auto before = folder.list();
   for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{
-           {"render", model, "--size", "8x8", "-o", exr, "--png", exr},
-           {"render", model, "--size", "8x8", "-o", exr, "--png", dotted},
-           {"render", model, "--size", "8x8", "-o", exr, "--png-level", dotted},
-           {"render", model, "--size", "8x8", "-o", folder / "a.exr", "--png", exr, "--stats", dotted},
+           {"render", model, "--size", "8x8", "-o", image, "--png", image},
+           {"render", model, "--size", "8x8", "-o", image, "--png", dotted},
+           {"render", model, "--size", "8x8", "-o", image, "--png-level", dotted},
+           {"render", model, "--size", "8x8", "-o", folder / "a.exr", "--png", image, "--stats", dotted},
            {"render", model, "--size", "8x8", "-o", model},
            {"query", model, "--rays", rays, "-o", rays},
            {"query", model, "--rays", rays, "-o", folder / "link.csv"},

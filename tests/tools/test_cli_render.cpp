@@ -213,4 +213,20 @@ TEST_CASE("render says what is wrong with a tolerance", "[tools][cli]") {
   CHECK(fine.status == 0);
 }
 
+TEST_CASE("render does not write a picture under another format's name", "[tools][cli]") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& outputs, const std::string& why) {
+    std::vector<std::string> line{"render", data_file("torus.obj"), "--size", "8x8"};
+    line.insert(line.end(), outputs.begin(), outputs.end());
+    const Outcome outcome = folder.run(line);
+    CAPTURE(outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find(why) != std::string::npos);
+    CHECK(folder.list().empty());
+  };
+  refused({"-o", folder / "a.PNG"}, "a.PNG' would be an OpenEXR file; see --png");
+  refused({"-o", folder / "a.exr", "--png", folder / "b.exr"}, "b.exr' would be a PNG file; see -o");
+  refused({"-o", folder / "a.exr", "--png-level", folder / "b.exr"}, "b.exr' would be a PNG file; see -o");
+}
+
 }  // namespace shaolin::test

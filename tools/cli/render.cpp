@@ -85,6 +85,15 @@ void render_in_arena(const RenderOptions& options) {
   print_summary(options, stats);
 }
 
+/// A picture's format is its option's: a name that ends in another's is a slip.
+CLI::Validator is_not(const std::string& extension, const std::string& format) {
+  return CLI::Validator(
+      [=](const std::string& file) {
+        return CLI::detail::to_lower(file).ends_with(extension) ? "'" + file + "' would be " + format : std::string();
+      },
+      "");
+}
+
 }  // namespace
 
 int render(const RenderOptions& options) {
@@ -101,10 +110,14 @@ void add_render(CLI::App& app, Command& command) {
                   "OpenEXR file with the channels R G B A (linear), Z (distance from the eye), N.X/Y/Z, P.X/Y/Z, "
                   "uv.U/V, face and level (UINT; 4294967295 where nothing was hit); of scenes, instance, too")
       ->required()
+      ->check(is_not(".png", "an OpenEXR file; see --png"))
       ->type_name("FILE");
-  sub->add_option("--png", options->png, "The same picture as PNG")->type_name("FILE");
+  sub->add_option("--png", options->png, "The same picture as PNG")
+      ->check(is_not(".exr", "a PNG file; see -o"))
+      ->type_name("FILE");
   sub->add_option("--png-level", options->level_png,
                   "PNG with a colour per refinement level; its legend adds columns on the right")
+      ->check(is_not(".exr", "a PNG file; see -o"))
       ->type_name("FILE");
   sub->add_option_function<std::string>("--size", parse_into(options->size, parse_size, "--size"), "Size in pixels")
       ->type_name("WxH")
