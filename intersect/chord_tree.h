@@ -35,7 +35,10 @@ class ChordNode {
   struct Children;
 
   ChordNode() = default;
-  ~ChordNode() { delete children_.load(); }
+  ~ChordNode() {
+    delete children_.load();
+    if (splits_ == 0) delete root_;
+  }
 
   /// Makes it the root of a start patch.
   void make_root(std::unique_ptr<Root> root, BorderHulls hulls);
@@ -68,8 +71,8 @@ class ChordNode {
     return std::sqrt(square);
   }
   /// How far the surface is seen to leave the chord face: cv of section 7.1, and, with `end_normals`, what the normals
-  /// at the ends of edges say of it. Found when first asked for; all must ask with the same `end_normals`. Thread-safe.
-  /// O(points).
+  /// at the ends of edges say of it. Found when first asked for; all must ask with the same `end_normals`.
+  /// Thread-safe. O(points).
   double deviation(bool end_normals) const;
 
   /// Of corner k, in the root's face. O(splits).
@@ -125,13 +128,15 @@ class ChordNode {
   const Vec3* points_ = nullptr;                     ///< of all siblings
   const int* order_ = nullptr;                       ///< which of them are the node's; null: the first
   std::array<const ChordCorner*, sides> corners_{};  ///< the root's own, or what splits of ancestors added
-  const ChordNode* parent_ = nullptr;
-  std::unique_ptr<const Root> root_;  ///< of the root
+  union {
+    const Root* root_ = nullptr;  ///< of the root, which has no splits
+    const ChordNode* parent_;     ///< of all others
+  };
   std::unique_ptr<Borders> borders_;
   mutable std::atomic<Children*> children_{nullptr};
   mutable std::atomic<double> deviation_{-1};  ///< negative: not known yet
   float border_reach_ = 0;
-  int level_ = 0;
+  std::uint8_t level_ = 0;
   std::uint8_t splits_ = 0, number_ = 0, outer_ = 0;  ///< since the root; among siblings; a bit per edge
 };
 
@@ -166,7 +171,7 @@ Patch<S> ChordNode<S>::patch() const {
 template <Scheme S>
 std::uint64_t ChordNode<S>::own_bytes() const {
   std::uint64_t bytes = 0;
-  if (root_) bytes += sizeof(Root) + root_->patch.points.capacity() * sizeof(Vec3);
+  if (splits_ == 0 && root_) bytes += sizeof(Root) + root_->patch.points.capacity() * sizeof(Vec3);
   if (borders_) {
     bytes += sizeof(Borders);
     for (const auto& hull : *borders_) bytes += hull.capacity() * sizeof(Vec3);
@@ -178,14 +183,14 @@ template <Scheme S>
 void ChordNode<S>::make_root(std::unique_ptr<Root> root, BorderHulls hulls) {
   configuration_ = root->patch.configuration;
   points_ = root->patch.points.data();
-  level_ = root->level;
+  level_ = static_cast<std::uint8_t>(root->level);
   for (std::size_t k = 0; k < sides; ++k) {
     root->corners[k] = limit_corner(root->patch, static_cast<int>(k));
     corners_[k] = &root->corners[k];
   }
   outer_ = (1u << sides) - 1;
   make_borders(root->patch, hulls);
-  root_ = std::move(root);
+  root_ = root.release();
 }
 
 template <Scheme S>
@@ -237,7 +242,7 @@ template <Scheme S>
 Parameter ChordNode<S>::corner_parameter(std::size_t k) const {
   Parameter at(D::corners[k][0], D::corners[k][1]);
   const ChordNode* node = this;
-  for (; node->parent_; node = node->parent_) at = D::to_parent(node->number_, at);
+  for (; node->splits_ > 0; node = node->parent_) at = D::to_parent(node->number_, at);
   return node->root_->origin + node->root_->scale * at;
 }
 
@@ -298,7 +303,7 @@ auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
     child.configuration_ = split.children[k].configuration;
     child.points_ = made->points.data();
     child.order_ = split.children[k].points.data();
-    child.level_ = level_ + 1;
+    child.level_ = static_cast<std::uint8_t>(level_ + 1);
     child.splits_ = static_cast<std::uint8_t>(splits_ + 1);
     child.number_ = static_cast<std::uint8_t>(k);
     child.parent_ = this;
@@ -323,7 +328,7 @@ auto ChordNode<S>::split(BorderHulls hulls) const -> std::unique_ptr<Children> {
 template <Scheme S>
 template <class ChildrenOf>
 auto ChordNode<S>::neighbour(std::size_t edge, const ChildrenOf& children_of) const -> Neighbour {
-  if (is_outer(edge) || !parent_) return {};
+  if (is_outer(edge) || splits_ == 0) return {};
   const auto k = static_cast<std::size_t>(number_);
   const Children& siblings = *parent_->children_.load(std::memory_order_acquire);
   if constexpr (sides == 3) {
