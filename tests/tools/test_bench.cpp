@@ -4,16 +4,16 @@
 #include <sstream>
 
 #include "tests/catch.h"
-#include "tests/intersect/random_rays.h"
 #include "tests/meshes.h"
 #include "tests/tools/cli_run.h"
-#include "tools/bench/embree_uniform.h"
 #include "tools/bench/error_figures.h"
 #include "tools/bench/measure.h"
 #include "tools/bench/paper_figures.h"
+#include "tools/bench/peak_memory.h"
 #include "tools/bench/plot.h"
 #include "tools/bench/silhouette_band.h"
 #include "tools/cli/csv.h"
+#include "tools/cli/json_text.h"
 #include "tools/validate/quad_oracle.h"
 
 namespace shaolin::test {
@@ -82,6 +82,20 @@ void check_errors(const Table& errors) {
       CHECK(factor < 6);
     }
   }
+}
+
+/// What must be true of the times of a picture's rays.
+void check_times(const Table& times, std::size_t row, int runs) {
+  CHECK(times.number(row, "runs") == runs);
+  for (const std::string phase : {"build", "cold", "camera", "shadow"}) {
+    CAPTURE(phase);
+    CHECK(times.number(row, phase + "_least") > 0);
+    CHECK(times.number(row, phase + "_least") <= times.number(row, phase));
+    CHECK(times.number(row, phase) <= times.number(row, phase + "_most"));
+  }
+  CHECK(times.number(row, "build_least") < times.number(row, "cold_least"));
+  CHECK(times.number(row, "bytes") > 0);
+  CHECK(times.number(row, "estimated") == 0);
 }
 
 }  // namespace
@@ -214,31 +228,40 @@ TEST_CASE("The paper's tables add up to its means", "[tools][bench]") {
     }
 }
 
-// Groups, a mirrored and an uneven transform, both kinds of faces.
-TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench]") {
-  const int level = GENERATE(1, 4);
-  const Stage stage = load_stage({data_file("scenes/mirrors.json"), {}, {}});
-  SceneOptions options;
-  options.method = Method::uniform;
-  options.level = level;
-  Stage copy = stage;
-  const Scene ours = build_scene(copy, options);
-  const EmbreeUniform theirs(stage, level);
-  const double diagonal = (ours.bounds().upper - ours.bounds().lower).norm();
-  int hits = 0, differ = 0;
-  for (const Ray& ray : random_rays(ours.bounds(), 3000, 5)) {
-    const auto a = ours.intersect(ray);
-    const auto b = theirs.intersect(ray);
-    differ += a.has_value() != b.has_value() || theirs.occluded(ray) != b.has_value();
-    if (!a || !b) continue;
-    ++hits;
-    // Single precision, and at outlines and contacts another sheet.
-    differ +=
-        std::abs(a->t - b->t) * ray.direction.norm() > 1e-5 * diagonal || (a->sample.normal - b->normal).norm() > 2e-3;
+TEST_CASE("Random rays aim at the scene, ambient rays leave the side that is seen", "[tools][bench]") {
+  const Subject subject(load_stage({data_file("torus.obj"), {}, {}}), {20, 20}, WarmRays::random_and_ambient_too);
+  const Workload& work = subject.work;
+  REQUIRE(work.random.size() == 400);
+  const Box box = subject.exact.bounds();
+  for (const Ray& ray : work.random) {
+    CHECK((ray.origin - box.centre()).norm() == Approx(subject.diagonal));
+    CHECK(ray.direction.norm() == Approx(1));
+    CHECK(ray.footprint.growth == work.primary.front().footprint.growth);
   }
-  CHECK(hits > 1000);
-  CHECK(differ <= hits / 200);
-  CHECK(theirs.bytes() > 0);
+  std::size_t hits = 0;
+  for (const auto& answer : subject.primary) hits += answer.has_value();
+  REQUIRE(work.ambient.size() == hits);
+  std::size_t next = 0;
+  double cosines = 0;
+  for (std::size_t i = 0; i < work.primary.size(); ++i) {
+    if (!subject.primary[i]) continue;
+    const Ray &primary = work.primary[i], &ambient = work.ambient[next++];
+    const Vec3 normal = subject.primary[i]->normal;
+    const double cosine = ambient.direction.dot(normal) * (normal.dot(primary.direction) <= 0 ? 1 : -1);
+    CHECK(cosine >= 0);
+    CHECK(ambient.tmax == Approx(subject.diagonal / 20));
+    cosines += cosine;
+  }
+  // The mean by the cosine is 2/3, its deviation sqrt(1/18 / hits).
+  CHECK(std::abs(cosines / static_cast<double>(hits) - 2.0 / 3) < 4 * std::sqrt(1.0 / 18 / static_cast<double>(hits)));
+}
+
+TEST_CASE("Peak memory includes what is freed again", "[tools][bench]") {
+  const std::size_t size = std::size_t{64} << 20;
+  const PeakMemory memory;
+  { const std::vector<char> held(size, 1); }
+  CHECK(memory.growth() > size - size / 16);  // the system counts pages in batches
+  CHECK(PeakMemory().growth() < size / 2);
 }
 
 // Regular patches, and rounded corners, n-gons, creases, darts and points near irregular vertices.
@@ -322,12 +345,8 @@ TEST_CASE("bench paper counts every hit once, and its files can be read", "[tool
     }
     if (levels.text(i, "method").starts_with("Uniform"))
       CHECK(levels.number(i, "mean_level") == levels.number(i, "parameter"));
-    CHECK(times.number(i, "runs") == 2);
-    CHECK(times.number(i, "seconds_least") > 0);
-    CHECK(times.number(i, "seconds_least") <= times.number(i, "seconds"));
-    CHECK(times.number(i, "seconds") <= times.number(i, "seconds_most"));
-    CHECK(times.number(i, "bytes") > 0);
-    CHECK(times.number(i, "estimated") == 0);
+    check_times(times, i, 2);
+    for (const std::string phase : {"random", "ambient"}) CHECK(times.text(i, phase).empty());
   }
   check_errors(errors);
 
@@ -352,32 +371,63 @@ TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench
     if (times.text(i, "method") != "Uniform") continue;
     const bool estimated = times.number(i, "parameter") >= 4;
     CHECK(times.number(i, "estimated") == (estimated ? 1 : 0));
-    CHECK(times.text(i, "seconds").empty() == estimated);
+    CHECK(times.text(i, "cold").empty() == estimated);
     if (estimated) CHECK(times.number(i, "bytes") == 4 * times.number(i - 1, "bytes"));
   }
   CHECK(memory.number(3, "level") == 4);
   CHECK(memory.number(3, "estimated") == 1);
 }
 
-TEST_CASE("bench pareto plots time over error", "[tools][cli][bench]") {
+TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][bench]") {
   const Folder folder;
-  const Outcome outcome = folder.run({"bench", "pareto", data_file("torus.obj"), "--size", "40x40", "--runs", "1",
-                                      "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
+  const Outcome outcome =
+      folder.run({"bench", "pareto", data_file("torus.obj"), data_file("loop_torus.obj"), "--size", "40x40", "--runs",
+                  "2", "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
   CAPTURE(outcome.text);
   REQUIRE(outcome.status == 0);
-  const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv");
-  CHECK(errors.rows.size() == 1 + 2 * 9 + 2 * 4);
+  CHECK(outcome.text.find("Embree's subdivision is left out: Embree subdivides by Catmull-Clark alone") !=
+        std::string::npos);
+  const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv"), exact(folder / "out/exact.csv");
+  const std::size_t without_subdivision = 1 + 2 * 9 + 2 * 4;
+  CHECK(errors.rows.size() == 2 * without_subdivision + 4);
   check_errors(errors);
-  CHECK(times.rows.size() == errors.rows.size());
-  CHECK(read_file(folder / "out/pareto.html").find("99th percentile") != std::string::npos);
-
-  // The torus is 3 across.
-  const Table exact(folder / "out/exact.csv");
-  CHECK(exact.number(0, "hits") == 20);
-  for (const char* column : {"position_max", "across_max", "along_max"}) {
-    CHECK(exact.number(0, column) > 0);
-    CHECK(exact.number(0, column) < 1e-14);
+  REQUIRE(times.rows.size() == errors.rows.size());
+  for (std::size_t i = 0; i < times.rows.size(); ++i) {
+    CAPTURE(times.rows[i]);
+    check_times(times, i, 2);
+    for (const std::string phase : {"random", "ambient"}) CHECK(times.number(i, phase) > 0);
+    CHECK(times.number(i, "peak_bytes") > 0);
   }
+
+  // Both are 3 across.
+  REQUIRE(exact.rows.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(exact.number(i, "hits") == 20);
+    for (const char* column : {"position_max", "across_max", "along_max"}) {
+      CHECK(exact.number(i, column) > 0);
+      CHECK(exact.number(i, column) < 1e-14);
+    }
+  }
+
+  const std::string page = read_file(folder / "out/pareto.html");
+  for (const char* text : {"99th percentile", "<h2>torus", "<h2>loop_torus", "memory against", "Embree subdivision"})
+    CHECK(page.find(text) != std::string::npos);
+  CHECK(page.find("nan") == std::string::npos);
+  const Json json = read_json(folder / "out/pareto.json");
+  REQUIRE(json.at("scenes").size() == 2);
+  std::size_t row = 0;
+  for (const Json& scene : json.at("scenes")) {
+    CHECK(scene.contains("embree_subdivision_left_out") == (scene.at("scene") == "loop_torus"));
+    CHECK(scene.at("rays").at("primary") == 1600);
+    CHECK(scene.at("rays").at("random") == 1600);
+    for (const Json& one : scene.at("measurements")) {
+      CHECK(one.at("method") == times.text(row, "method"));
+      CHECK(one.at("seconds").at("cold").at("median") == times.number(row, "cold"));
+      CHECK(one.at("errors").at("distance").at("p99") == errors.number(row, "distance_p99"));
+      ++row;
+    }
+  }
+  CHECK(row == times.rows.size());
 }
 
 TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli][bench]") {
@@ -418,6 +468,7 @@ TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
            {"bench", "paper", "--report", report, "--level", "11"},
            {"bench", "pareto", "--report", report},
            {"bench", "pareto", torus},
+           {"bench", "pareto", torus, "--report", report, "--scheme", "doo-sabin"},
            {"bench", "pareto", torus, "--report", report, "--unit", "0"},
            {"bench", "pareto", torus, "--report", report, "--unit", "nan"},
            {"bench", "lost"},
@@ -432,6 +483,7 @@ TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
            {"bench", "paper", "--report", file, "--scenes", scenes},
            {"bench", "pareto", folder / "nothing.obj", "--report", report},
            {"bench", "pareto", file, "--report", report},
+           {"bench", "pareto", torus, folder / "nothing.obj", "--report", report},
            {"bench", "lost", folder / "nothing.obj"},
        }) {
     CAPTURE(bad);

@@ -22,7 +22,7 @@ void add_measure_options(CLI::App& app, MeasureOptions& options, int& most_level
   app.add_option("--runs", options.runs, "Runs of each time; medians are shown")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--level", most_level, "The highest level of uniform triangles")
+  app.add_option("--level", most_level, "The highest level of uniform triangles and of Embree's")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
   app.add_option_function<std::size_t>(
@@ -72,8 +72,11 @@ void add_paper(CLI::App& app, Command& command) {
 void add_pareto(CLI::App& app, Command& command) {
   const auto options = std::make_shared<ParetoOptions>();
   CLI::App* sub = app.add_subcommand(
-      "pareto", "Time against error: ShaoLin and A3 over epsilon, uniform triangles by level, the exact method");
-  add_stage_options(*sub, options->model);
+      "pareto",
+      "Time and memory against error: the exact method, ShaoLin and A3 over epsilon, uniform triangles "
+      "and Embree 3 by level");
+  sub->add_option("SCENE", options->files, "OBJ files or scene files")->required();
+  add_scheme_options(*sub, options->scheme);
   add_size_option(*sub, options->size);
   add_report_option(*sub, options->report);
   add_chord_options(*sub, options->unit, options->min_size, options->max_size);

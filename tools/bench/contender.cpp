@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "tools/bench/embree_uniform.h"
+#include "tools/bench/embree_stage.h"
 
 namespace shaolin {
 namespace {
@@ -21,7 +21,7 @@ class SceneTracer final : public Tracer {
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Stage& stage, int level) : scene_(stage, level), level_(level) {}
+  EmbreeTracer(const Stage& stage, int level, EmbreeSurface surface) : scene_(stage, level, surface), level_(level) {}
 
   std::optional<Answer> intersect(const Ray& ray) const override {
     const auto hit = scene_.intersect(ray);
@@ -32,7 +32,7 @@ class EmbreeTracer final : public Tracer {
   std::size_t bytes() const override { return scene_.bytes(); }
 
  private:
-  EmbreeUniform scene_;
+  EmbreeStage scene_;
   int level_;
 };
 
@@ -53,6 +53,8 @@ std::string Contender::method() const {
       return "Uniform";
     case ContenderKind::embree:
       return "Uniform by Embree";
+    case ContenderKind::subdivision:
+      return "Embree subdivision";
     case ContenderKind::exact:
       break;
   }
@@ -77,7 +79,10 @@ SceneOptions scene_options(const Contender& contender) {
 }
 
 std::unique_ptr<Tracer> make_tracer(const Contender& contender, const Stage& stage) {
-  if (contender.kind == ContenderKind::embree) return std::make_unique<EmbreeTracer>(stage, contender.level);
+  if (contender.kind == ContenderKind::embree)
+    return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::triangles);
+  if (contender.kind == ContenderKind::subdivision)
+    return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::subdivision);
   return std::make_unique<SceneTracer>(stage, scene_options(contender));
 }
 

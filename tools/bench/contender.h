@@ -8,19 +8,21 @@
 
 namespace shaolin {
 
-enum class ContenderKind { exact, chord, a3, uniform, embree };
+enum class ContenderKind { exact, chord, a3, uniform, embree, subdivision };
 
 /// A method and its parameter.
 struct Contender {
   ContenderKind kind = ContenderKind::exact;
   double epsilon = 0;    ///< of chord and a3, as the paper counts it: in units of the scene
-  int level = 0;         ///< of uniform and embree
+  int level = 0;         ///< of uniform, embree and subdivision
   ChordOptions chord{};  ///< of chord and a3; chord.epsilon is a length
 
   bool is_adaptive() const { return kind == ContenderKind::chord || kind == ContenderKind::a3; }
-  bool is_uniform() const { return kind == ContenderKind::uniform || kind == ContenderKind::embree; }
+  bool is_uniform() const { return kind == ContenderKind::uniform || is_embree(); }
+  bool is_embree() const { return kind == ContenderKind::embree || kind == ContenderKind::subdivision; }
   double parameter() const { return is_adaptive() ? epsilon : level; }
-  std::string method() const;  ///< "ShaoLin", "A3", "Uniform", "Uniform by Embree", "ShaoLin exact"
+  std::string method() const;  ///< "ShaoLin", "A3", "Uniform", "Uniform by Embree", "Embree subdivision",
+                               ///< "ShaoLin exact"
   std::string name() const;    ///< with the parameter: "ShaoLin, epsilon 0.01", "Uniform, level 5"
 };
 
@@ -47,7 +49,7 @@ class Tracer {
 /// Builds a scene of its own. Throws what its parts throw.
 std::unique_ptr<Tracer> make_tracer(const Contender& contender, const Stage& stage);
 
-/// Options of Scene for a contender; not for embree.
+/// Options of Scene for a contender; not for those of Embree.
 SceneOptions scene_options(const Contender& contender);
 
 }  // namespace shaolin

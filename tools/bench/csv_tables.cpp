@@ -44,15 +44,25 @@ void write_level_table(const std::filesystem::path& file, const std::vector<Name
 }
 
 void write_time_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
-  write_table(file, "runs,seconds,seconds_least,seconds_most,again,bytes,estimated,occluded_differs", scenes,
+  std::string columns = "runs";
+  for (const Phase phase : phases)
+    for (const std::string end : {"", "_least", "_most"}) columns += "," + (name_of(phase) + end);
+  write_table(file, columns + ",bytes,peak_bytes,estimated,occluded_differs", scenes,
               [](CsvWriter& writer, const Measurement& one) {
-                count(writer, one.seconds.size());
-                const Spread seconds = spread(one.seconds);
-                if (one.seconds.empty())
-                  writer.empty(4);
+                count(writer, one.times(Phase::cold).size());
+                for (const Phase phase : phases) {
+                  const Spread seconds = spread(one.times(phase));
+                  if (one.is_timed(phase))
+                    writer.field(seconds.median).field(seconds.least).field(seconds.most);
+                  else
+                    writer.empty(3);
+                }
+                count(writer, one.bytes);
+                if (one.is_timed())
+                  count(writer, one.peak_bytes);
                 else
-                  writer.field(seconds.median).field(seconds.least).field(seconds.most).field(spread(one.again).median);
-                count(writer, one.bytes).field(one.estimated ? 1 : 0);
+                  writer.empty();
+                writer.field(one.estimated ? 1 : 0);
                 count(writer, one.occluded_differs);
               });
 }

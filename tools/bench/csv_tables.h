@@ -17,8 +17,8 @@ struct NamedMeasurements {
 /// scene,method,parameter,mean_level,primary_0..primary_15,shadow_0..shadow_15
 void write_level_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes);
 
-/// scene,method,parameter,runs,seconds,seconds_least,seconds_most,again,bytes,estimated,occluded_differs: medians of
-/// runs, `again` of the same rays once more; empty where nothing was timed.
+/// scene,method,parameter,runs,build,build_least,build_most,cold,...,bytes,peak_bytes,estimated,occluded_differs:
+/// seconds by phase, medians of runs; empty where nothing was timed.
 void write_time_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes);
 
 /// scene,method,parameter,rays,hits,distance_median,..._p99,..._max,normal_...,lost,ghosts,farther,nearer,lost_outside,

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
+#include "tools/bench/peak_memory.h"
 #include "tools/cli/framing.h"
 #include "tools/cli/render_stats.h"
 #include "tools/cli/threads.h"
@@ -17,11 +19,27 @@ namespace {
 
 Scene build_copy(Stage stage) { return build_scene(stage); }
 
+Workload work_of(const Scene& exact, const View& view, const Look& look, WarmRays warm) {
+  Workload work = make_workload(exact, view, look);
+  if (warm == WarmRays::random_and_ambient_too) add_random_and_ambient_rays(exact, work);
+  return work;
+}
+
 LevelCounts count_levels(const Answers& answers) {
   LevelCounts counts;
   for (const auto& answer : answers)
     if (answer) counts.add(answer->level);
   return counts;
+}
+
+std::size_t count_hits(const Tracer& tracer, std::span<const Ray> rays) {
+  return static_cast<std::size_t>(
+      std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return tracer.intersect(ray).has_value(); }));
+}
+
+std::size_t count_occluded(const Tracer& tracer, std::span<const Ray> rays) {
+  return static_cast<std::size_t>(
+      std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return tracer.occluded(ray); }));
 }
 
 std::size_t count_disagreements(const Tracer& tracer, std::span<const Ray> rays, const Answers& answers) {
@@ -37,16 +55,25 @@ std::size_t count_disagreements(const Tracer& tracer, std::span<const Ray> rays,
 
 /// A wrong mesh, transform or scheme is wrong by far more than this: outlines by a few in a hundred pixels, depths by a
 /// few thousandths of the scene. Coarse triangles are off by four times as much for each level less than three.
-std::string fault_of(const Contender& contender, const ErrorFigures& errors, double diagonal) {
+/// Of ambient occlusion nothing is asked: its rays start in the hollows between coarse triangles and the surface.
+std::string fault_of(const Measurement& measurement, double diagonal) {
+  const Contender& contender = measurement.contender;
+  const ErrorFigures& errors = measurement.errors;
   // Chords are as coarse as epsilon and the size of pixels ask for.
   const double coarse = contender.is_adaptive()                         ? 4
                         : contender.is_uniform() && contender.level < 3 ? std::pow(4.0, 3 - contender.level)
                                                                         : 1;
-  if (static_cast<double>(errors.lost + errors.ghosts) > 0.03 * coarse * static_cast<double>(errors.hits) + 4)
+  const auto too_many = [&](std::size_t wrong, std::size_t hits) {
+    return static_cast<double>(wrong) > 0.03 * coarse * static_cast<double>(hits) + 4;
+  };
+  if (too_many(errors.lost + errors.ghosts, errors.hits))
     return std::to_string(errors.lost) + " lost and " + std::to_string(errors.ghosts) + " ghost hits of " +
            std::to_string(errors.hits);
   if (errors.distance.median > 2e-3 * coarse * diagonal)
     return "a median error of " + std::to_string(errors.distance.median) + " along the ray";
+  if (too_many(measurement.random_differs, measurement.random_hits))
+    return std::to_string(measurement.random_differs) + " of the random rays hit or miss otherwise, " +
+           std::to_string(measurement.random_hits) + " hit";
   return {};
 }
 
@@ -54,6 +81,12 @@ Measurement answer(const Subject& subject, const Contender& contender) {
   Measurement result{.contender = contender};
   const auto tracer = make_tracer(contender, subject.stage);
   const Answers primary = trace(subject.work.primary, *tracer), shadow = trace(subject.work.shadow, *tracer);
+  const Answers random = trace(subject.work.random, *tracer);
+  for (std::size_t i = 0; i < random.size(); ++i) {
+    result.random_hits += random[i].has_value();
+    result.random_differs += random[i].has_value() != subject.random[i].has_value();
+  }
+  result.ambient_hits = count_occluded(*tracer, subject.work.ambient);
   result.bytes = tracer->bytes();
   result.primary = count_levels(primary);
   result.shadow = count_levels(shadow);
@@ -67,26 +100,51 @@ Measurement answer(const Subject& subject, const Contender& contender) {
   };
   result.errors =
       compare(contender, subject.exact, rays, joined(subject.primary, subject.shadow), joined(primary, shadow));
-  result.fault = fault_of(contender, result.errors, subject.diagonal);
+  result.fault = fault_of(result, subject.diagonal);
   return result;
 }
 
-/// One run's times, appended. Throws std::runtime_error if the answers are not those that were verified.
+/// Throws std::runtime_error if a timed run's hits are not those that were verified.
+void expect_hits(const Measurement& verified, std::size_t hits, std::size_t expected, std::size_t slack = 0) {
+  if (std::max(hits, expected) - std::min(hits, expected) > slack)
+    throw std::runtime_error(verified.contender.name() + " answers otherwise when it is timed");
+}
+
+/// One run's times, appended; see Phase.
 void time_once(const Subject& subject, Measurement& result) {
-  run_with_threads(1, [&] {
-    Stopwatch stopwatch;
-    const auto tracer = make_tracer(result.contender, subject.stage);
-    for (std::vector<double>* const times : {&result.seconds, &result.again}) {
-      std::size_t hits = 0, occluded = 0;
-      for (const Ray& ray : subject.work.primary) hits += tracer->intersect(ray).has_value();
-      for (const Ray& ray : subject.work.shadow) occluded += tracer->occluded(ray);
-      times->push_back(stopwatch.lap());
-      const std::size_t shadows = result.shadow.total();
-      if (hits != result.primary.total() ||
-          std::max(occluded, shadows) - std::min(occluded, shadows) > result.occluded_differs)
-        throw std::runtime_error(result.contender.name() + " answers otherwise when it is timed");
-    }
-  });
+  const PeakMemory memory;
+  Stopwatch stopwatch;
+  const auto add = [&](Phase phase, double seconds) {
+    result.seconds[static_cast<std::size_t>(phase)].push_back(seconds);
+  };
+  const auto tracer = make_tracer(result.contender, subject.stage);
+  const double build = stopwatch.lap();
+  const auto primary = [&] { expect_hits(result, count_hits(*tracer, subject.work.primary), result.primary.total()); };
+  const auto shadow = [&] {
+    expect_hits(result, count_occluded(*tracer, subject.work.shadow), result.shadow.total(), result.occluded_differs);
+  };
+  const auto random = [&] { expect_hits(result, count_hits(*tracer, subject.work.random), result.random_hits); };
+  const auto ambient = [&] { expect_hits(result, count_occluded(*tracer, subject.work.ambient), result.ambient_hits); };
+  const auto time_warm = [&](Phase phase, const auto& trace_rays) {
+    stopwatch.lap();
+    trace_rays();
+    add(phase, stopwatch.lap());
+  };
+  primary();
+  shadow();
+  add(Phase::build, build);
+  add(Phase::cold, build + stopwatch.lap());
+  time_warm(Phase::camera, primary);
+  time_warm(Phase::shadow, shadow);
+  if (!subject.work.random.empty()) {
+    random();
+    time_warm(Phase::random, random);
+  }
+  if (!subject.work.ambient.empty()) {
+    ambient();
+    time_warm(Phase::ambient, ambient);
+  }
+  result.peak_bytes = std::max(result.peak_bytes, memory.growth());
 }
 
 }  // namespace
@@ -111,6 +169,12 @@ LevelCounts Measurement::levels() const {
   return both;
 }
 
+const char* name_of(Phase phase) {
+  constexpr std::array names{"build", "cold", "camera", "shadow", "random", "ambient"};
+  static_assert(names.size() == phases.size());
+  return names[static_cast<std::size_t>(phase)];
+}
+
 Spread spread(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
@@ -118,20 +182,21 @@ Spread spread(std::vector<double> values) {
   return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
 }
 
-Spread ratio(const Measurement& a, const Measurement& b) {
+Spread ratio(const Measurement& a, const Measurement& b, Phase phase) {
   std::vector<double> ratios;
-  for (std::size_t run = 0; run < std::min(a.seconds.size(), b.seconds.size()); ++run)
-    ratios.push_back(a.seconds[run] / b.seconds[run]);
+  for (std::size_t run = 0; run < std::min(a.times(phase).size(), b.times(phase).size()); ++run)
+    ratios.push_back(a.times(phase)[run] / b.times(phase)[run]);
   return spread(ratios);
 }
 
-Subject::Subject(const ModelOptions& model, ImageSize size)
-    : stage(load_stage(model)),
+Subject::Subject(Stage of, ImageSize size, WarmRays warm)
+    : stage(std::move(of)),
       exact(build_copy(stage)),
       view(choose_camera(stage, exact, size), size),
-      work(make_workload(exact, view, stage.scene.look)),
+      work(work_of(exact, view, stage.scene.look, warm)),
       primary(trace(work.primary, exact)),
       shadow(trace(work.shadow, exact)),
+      random(trace(work.random, exact)),
       diagonal((exact.bounds().upper - exact.bounds().lower).norm()) {}
 
 std::vector<Measurement> measure(const Subject& subject, std::span<const Contender> contenders,
@@ -155,7 +220,7 @@ std::vector<Measurement> measure(const Subject& subject, std::span<const Contend
   }
   for (int run = 0; run < options.runs; ++run)
     for (Measurement& result : results)
-      if (!result.estimated && result.fault.empty()) time_once(subject, result);
+      if (!result.estimated && result.fault.empty()) run_with_threads(1, [&] { time_once(subject, result); });
   return results;
 }
 

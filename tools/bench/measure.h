@@ -20,19 +20,18 @@ struct LevelCounts {
   double mean() const;  ///< 0 without hits
 };
 
-struct Measurement {
-  Contender contender;
-  LevelCounts primary{}, shadow{};
-  ErrorFigures errors{};             ///< of primary and shadow rays together
-  std::size_t occluded_differs = 0;  ///< shadow rays that occluded() answers otherwise than intersect() does
-  std::string fault{};               ///< why its answers are no picture of the scene, so that it is not timed; or empty
-  std::vector<double> seconds{};     ///< of each run, from meshes in memory to the last answer, cold, on one thread
-  std::vector<double> again{};       ///< of each run: the same rays once more, with all that the first time made
-  std::size_t bytes = 0;             ///< after all rays
-  bool estimated = false;            ///< not run: bytes are four times those of the level before
-
-  LevelCounts levels() const;  ///< of both kinds of rays
+/// What is timed, on one thread, each by itself.
+enum class Phase {
+  build,    ///< from meshes in memory to a scene; what waits for rays is not part of it
+  cold,     ///< build and the first image: primary and shadow rays
+  camera,   ///< the primary rays once more, with all that the first time made; so are the others:
+  shadow,   ///< by occluded()
+  random,   ///< by intersect(); a first time is not timed
+  ambient,  ///< by occluded(); a first time is not timed
 };
+inline constexpr std::array phases{Phase::build,  Phase::cold,   Phase::camera,
+                                   Phase::shadow, Phase::random, Phase::ambient};
+const char* name_of(Phase phase);
 
 /// Median, least and most.
 struct Spread {
@@ -40,8 +39,29 @@ struct Spread {
 };
 Spread spread(std::vector<double> values);
 
-/// By how much `a` takes longer than `b`, run by run, as both were run in turns.
-Spread ratio(const Measurement& a, const Measurement& b);
+struct Measurement {
+  Contender contender;
+  LevelCounts primary{}, shadow{};
+  ErrorFigures errors{};             ///< of primary and shadow rays together
+  std::size_t occluded_differs = 0;  ///< shadow rays that occluded() answers otherwise than intersect() does
+  std::size_t random_hits = 0;       ///< of random rays
+  std::size_t random_differs = 0;    ///< random rays that hit where the exact method misses, or the other way round
+  std::size_t ambient_hits = 0;      ///< of rays of ambient occlusion
+  std::string fault{};               ///< why its answers are no picture of the scene, so that it is not timed; or empty
+  std::array<std::vector<double>, phases.size()> seconds{};  ///< by phase: of each run; empty where there are no rays
+  std::size_t bytes = 0;                                     ///< after all rays
+  std::size_t peak_bytes = 0;  ///< most by which a timed run raised the process's resident memory; 0: not timed
+  bool estimated = false;      ///< not run: bytes are four times those of the level before
+
+  LevelCounts levels() const;  ///< of primary and shadow rays
+  const std::vector<double>& times(Phase phase) const { return seconds[static_cast<std::size_t>(phase)]; }
+  bool is_timed(Phase phase = Phase::cold) const { return !times(phase).empty(); }
+};
+
+/// By how much `a` takes longer than `b` in a phase, run by run, as both were run in turns.
+Spread ratio(const Measurement& a, const Measurement& b, Phase phase = Phase::cold);
+
+enum class WarmRays { of_picture, random_and_ambient_too };
 
 /// A scene and what it is asked.
 struct Subject {
@@ -49,10 +69,10 @@ struct Subject {
   Scene exact;
   View view;
   Workload work;
-  Answers primary, shadow;  ///< the exact ones
-  double diagonal;          ///< of the scene's box
+  Answers primary, shadow, random;  ///< the exact ones
+  double diagonal;                  ///< of the scene's box
 
-  Subject(const ModelOptions& model, ImageSize size);
+  Subject(Stage stage, ImageSize size, WarmRays warm = WarmRays::of_picture);
 };
 
 struct MeasureOptions {

@@ -21,28 +21,32 @@ std::string megabytes(std::size_t bytes);
 /// The colour of a method in all plots; uniform levels from light to dark.
 std::string color_of(const Contender& contender);
 
-/// All timed measurements of a kind: x of the measurement over seconds, with bars from least to most.
-template <class X>
-PlotSeries time_series(const std::vector<Measurement>& measurements, ContenderKind kind, X x) {
+/// All timed measurements of a kind: x(measurement) over the Spread y(measurement), with bars from least to most.
+template <class X, class Y>
+PlotSeries series_of(const std::vector<Measurement>& measurements, ContenderKind kind, X x, Y y) {
   PlotSeries series;
   for (const Measurement& one : measurements) {
-    if (one.contender.kind != kind || one.seconds.empty()) continue;
-    const Spread seconds = spread(one.seconds);
+    if (one.contender.kind != kind || !one.is_timed()) continue;
+    const Spread shown = y(one);
     series.name = one.contender.method();
     series.color = color_of(one.contender);
-    series.points.push_back({x(one), seconds.median, seconds.least, seconds.most, ""});
+    series.points.push_back({x(one), shown.median, shown.least, shown.most, ""});
   }
-  series.dashed = kind == ContenderKind::embree;
+  series.dashed = Contender{.kind = kind}.is_embree();
   return series;
 }
 
-/// A line across the plot at a measurement's time.
-PlotSeries time_line(const Measurement& measurement, const std::string& label);
+/// A line across the plot at a measurement's y.
+PlotSeries line_of(const Measurement& measurement, const Spread& y, const std::string& label);
 
-/// Rows of all that was measured: errors, lost and ghost hits, time, memory.
+/// Rows of times by phase, of those phases that any was timed in, and of memory.
+void write_time_rows(std::ostream& out, const std::vector<Measurement>& measurements);
+
+/// Rows of errors, lost and ghost hits.
 void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements);
 
-/// What stands in write_error_rows(), in words.
+/// What stands in those rows, in words.
+extern const char* const time_rows_note;
 extern const char* const error_rows_note;
 
 }  // namespace shaolin

@@ -86,7 +86,7 @@ MapLikeness draw_maps(const PaperScene& scene, const Subject& subject, const Pap
 PaperResult measure_scene(const PaperScene& scene, const PaperOptions& options) {
   const std::string file = std::string(scene.file) + (options.quads ? "-catmark" : "") + ".json";
   std::printf("%s\n", scene.title);
-  const Subject subject({options.scenes / file, {}, {}}, options.size);
+  const Subject subject(load_stage({options.scenes / file, {}, {}}), options.size);
   make_report_folder(options.report);
   PaperResult result{.scene = &scene};
   result.primary = subject.work.primary.size();

@@ -85,15 +85,19 @@ void write_level_words(std::ostream& out, const PaperResult& result) {
          "said.</p>\n";
 }
 
+Spread cold_time(const Measurement& one) { return spread(one.times(Phase::cold)); }
+
 void write_time_plot(std::ostream& out, const PaperResult& result) {
   Plot plot{.x_label = "epsilon, in units of the scene", .y_label = "time, s"};
   for (const PaperLevels& row : result.scene->levels) plot.x_ticks.push_back(row.epsilon);
   for (const ContenderKind kind : {ContenderKind::chord, ContenderKind::a3})
-    plot.series.push_back(time_series(result.measurements, kind, [](const auto& m) { return m.contender.epsilon; }));
+    plot.series.push_back(series_of(
+        result.measurements, kind, [](const auto& m) { return m.contender.epsilon; }, cold_time));
   for (const Measurement& one : result.measurements) {
-    if (one.seconds.empty() || one.contender.is_adaptive()) continue;
+    if (!one.is_timed() || one.contender.is_adaptive()) continue;
     const bool is_exact = one.contender.kind == ContenderKind::exact;
-    plot.series.push_back(time_line(one, is_exact ? "exact" : "level " + std::to_string(one.contender.level)));
+    plot.series.push_back(
+        line_of(one, cold_time(one), is_exact ? "exact" : "level " + std::to_string(one.contender.level)));
   }
   out << "<figure>";
   write_svg(out, plot);
@@ -106,7 +110,7 @@ Spread factors(const PaperResult& result, ContenderKind a, ContenderKind b) {
   std::vector<double> all;
   for (const PaperLevels& row : result.scene->levels) {
     const Measurement *const first = result.find(a, row.epsilon), *const second = result.find(b, row.epsilon);
-    if (first != nullptr && second != nullptr && !first->seconds.empty() && !second->seconds.empty())
+    if (first != nullptr && second != nullptr && first->is_timed() && second->is_timed())
       all.push_back(ratio(*first, *second).median);
   }
   return spread(all);
@@ -120,15 +124,15 @@ void write_time_words(std::ostream& out, const PaperResult& result) {
           : factor.median > 1.0 ? "here it is slower by the median only."
                                 : "here it is not.");
   const Measurement* const ours = result.find(ContenderKind::chord, paper_epsilon);
-  if (ours != nullptr && !ours->seconds.empty()) {
+  if (ours != nullptr && ours->is_timed()) {
     const int like = static_cast<int>(std::lround(ours->levels().mean()));
     const Measurement* const uniform = result.find(ContenderKind::uniform, like);
     const Measurement* const embree = result.find(ContenderKind::embree, like);
     out << " Against triangles of the level that is nearest to the mean at &epsilon; = " << paper_epsilon << ", "
         << like << ", ShaoLin takes ";
-    if (uniform != nullptr && !uniform->seconds.empty())
+    if (uniform != nullptr && uniform->is_timed())
       out << digits(ratio(*ours, *uniform).median) << " times Uniform's time";
-    if (embree != nullptr && !embree->seconds.empty())
+    if (embree != nullptr && embree->is_timed())
       out << " and " << digits(ratio(*ours, *embree).median) << " times that of the same triangles under Embree";
     out << ". The paper found them alike in the simple scene and ShaoLin ahead in the others.";
   }
@@ -220,7 +224,9 @@ void write_scene(std::ostream& out, const PaperResult& result, int table) {
   write_time_words(out, result);
   out << "<h3>Figure 14: level maps</h3>\n";
   write_maps(out, result);
-  out << "<h3>Errors</h3>\n";
+  out << "<h3>Times and memory</h3>\n";
+  write_time_rows(out, result.measurements);
+  out << "<p>" << time_rows_note << "</p>\n<h3>Errors</h3>\n";
   write_error_rows(out, result.measurements);
   out << "<p>" << error_rows_note << "</p>\n";
   for (const Measurement& one : result.measurements)

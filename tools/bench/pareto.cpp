@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <iterator>
+#include <utility>
 
+#include "schemes/errors.h"
 #include "tools/bench/csv_tables.h"
-#include "tools/bench/exact_errors.h"
-#include "tools/bench/page_parts.h"
+#include "tools/bench/embree_stage.h"
 #include "tools/bench/paper_figures.h"
 #include "tools/bench/report_folder.h"
 #include "tools/cli/command.h"
 #include "tools/cli/csv.h"
-#include "tools/cli/html.h"
 #include "tools/cli/threads.h"
 
 namespace shaolin {
@@ -27,90 +26,76 @@ const PaperScene* paper_scene_of(const ModelOptions& model) {
   return nullptr;
 }
 
-std::vector<Contender> contenders_of(const ParetoOptions& options, double unit, double max_size) {
+/// The peer next to the exact method, for turns are taken in this order.
+std::vector<Contender> contenders_of(const ParetoOptions& options, const ParetoResult& scene) {
   std::vector<Contender> all{Contender{}};
+  for (const ContenderKind kind : {ContenderKind::subdivision, ContenderKind::embree, ContenderKind::uniform})
+    for (int level = 1; level <= options.most_level; ++level)
+      if (kind != ContenderKind::subdivision || scene.left_out.empty()) all.push_back({.kind = kind, .level = level});
   for (const ContenderKind kind : {ContenderKind::chord, ContenderKind::a3})
     for (const double epsilon : epsilons)
-      all.push_back({.kind = kind, .epsilon = epsilon, .chord = {epsilon * unit, options.min_size, max_size}});
-  for (const ContenderKind kind : {ContenderKind::uniform, ContenderKind::embree})
-    for (int level = 1; level <= options.most_level; ++level) all.push_back({.kind = kind, .level = level});
+      all.push_back(
+          {.kind = kind, .epsilon = epsilon, .chord = {epsilon * scene.unit, options.min_size, scene.max_size}});
   return all;
 }
 
-/// One of the quantiles of one of the errors.
-struct Axis {
-  const char* name;
-  Quantiles ErrorFigures::*error;
-  double Quantiles::*quantile;
-};
-constexpr Axis axes[] = {
-    {"distance along the ray, 99th percentile, in the scene's unit", &ErrorFigures::distance, &Quantiles::p99},
-    {"distance along the ray, median, in the scene's unit", &ErrorFigures::distance, &Quantiles::median},
-    {"angle of the normal, 99th percentile, rad", &ErrorFigures::normal, &Quantiles::p99},
-};
-
-void write_plot(std::ostream& out, const std::vector<Measurement>& measurements, const Axis& axis,
-                const ExactErrors& exact) {
-  Plot plot{.x_label = axis.name, .y_label = "time, s"};
-  for (const ContenderKind kind :
-       {ContenderKind::chord, ContenderKind::a3, ContenderKind::uniform, ContenderKind::embree}) {
-    PlotSeries series =
-        time_series(measurements, kind, [&](const Measurement& one) { return one.errors.*axis.error.*axis.quantile; });
-    auto point = series.points.begin();
-    for (const Measurement& one : measurements)
-      if (one.contender.kind == kind && !one.seconds.empty()) point++->label = digits(one.contender.parameter());
-    plot.series.push_back(series);
+/// Empty if Embree's subdivision geometry knows all that the scene's meshes ask for.
+std::string why_no_subdivision(const Stage& stage) {
+  try {
+    EmbreeStage(stage, 0, EmbreeSurface::subdivision);
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
   }
-  for (const Measurement& one : measurements)
-    if (one.contender.kind == ContenderKind::exact && !one.seconds.empty())
-      plot.series.push_back(time_line(one, axis.error == &ErrorFigures::distance && exact.hits > 0
-                                               ? digits(exact.along.*axis.quantile, 2)
-                                               : "exact"));
-  out << "<figure>";
-  write_svg(out, plot);
-  out << "<figcaption>time against " << axis.name << "</figcaption></figure>\n";
 }
 
-std::string exact_row(const std::string& name, const Quantiles& of) {
-  std::string row = "<tr><td>" + name;
-  for (const double value : {of.median, of.p99, of.max}) row += "<td class=n>" + digits(value, 2);
-  return row + "</tr>\n";
+ModelOptions model_of(const ParetoOptions& options, const std::filesystem::path& file) {
+  return {file, options.scheme.scheme, options.scheme.plugin};
 }
 
-void write_exact_table(const std::filesystem::path& file, const ExactErrors& exact) {
+void write_exact_table(const std::filesystem::path& file, const std::vector<ParetoResult>& results) {
   CsvWriter writer(file,
-                   "hits,position_median,position_p99,position_max,across_median,across_p99,across_max,along_median,"
-                   "along_p99,along_max");
-  writer.field(static_cast<long long>(exact.hits));
-  for (const Quantiles* const of : {&exact.position, &exact.across, &exact.along})
-    writer.field(of->median).field(of->p99).field(of->max);
-  writer.end_row();
+                   "scene,hits,position_median,position_p99,position_max,across_median,across_p99,across_max,"
+                   "along_median,along_p99,along_max");
+  for (const ParetoResult& result : results) {
+    const ExactErrors& exact = result.exact;
+    writer.field(result.scene).field(static_cast<long long>(exact.hits));
+    for (const Quantiles* const of : {&exact.position, &exact.across, &exact.along})
+      writer.field(of->median).field(of->p99).field(of->max);
+    writer.end_row();
+  }
   writer.commit();
 }
 
-void write_pareto_page(std::ostream& out, const ParetoOptions& options, const Subject& subject, double unit,
-                       double max_size, const std::vector<Measurement>& measurements, const ExactErrors& exact) {
-  const std::string model = options.model.file.filename().string();
-  out << html_head("shaolin bench pareto " + model, "Time against error: " + model) << "<p>" << options.size.width
-      << "x" << options.size.height << " pixels, " << subject.work.primary.size() << " primary and "
-      << subject.work.shadow.size() << " shadow rays, one thread, cold; " << options.measure.runs
-      << " runs in turns, medians with bars from least to most. Epsilon in units of " << digits(unit, 6)
-      << " (the scene's diagonal is " << digits(subject.diagonal, 6) << "); minSize " << options.min_size
-      << ", maxSize " << max_size
-      << " pixels. Points carry their epsilon or level. Left and below is better. The exact method is what errors are "
-         "measured from: its line is its time, with its own error at the end. CSV: <a href=times.csv>times</a>, <a "
-         "href=errors.csv>errors</a>.</p>\n";
-  for (const Axis& axis : axes) write_plot(out, measurements, axis, exact);
-  if (exact.hits > 0)
-    out << "<p>" << exact.hits
-        << " hits of the exact method against the control mesh refined in numbers of 113 bits, at the parameters that "
-           "they "
-           "tell; lengths of the scene's: median, 99th percentile, maximum.</p>\n<table>"
-        << exact_row("from the hit's position to the surface", exact.position)
-        << exact_row("from the surface's point to the ray", exact.across) << exact_row("along the ray", exact.along)
-        << "</table>\n";
-  write_error_rows(out, measurements);
-  out << "<p>" << error_rows_note << "</p>\n</html>\n";
+ParetoResult measure_scene(const ParetoOptions& options, const ModelOptions& model, Stage stage) {
+  const Subject subject(std::move(stage), options.size, WarmRays::random_and_ambient_too);
+  ParetoResult result{.scene = model.file.stem().string()};
+  std::printf("%s\n", result.scene.c_str());
+  result.diagonal = subject.diagonal;
+  result.unit = options.unit.value_or(unit_of(model, subject.diagonal));
+  result.max_size = std::max(options.min_size, options.max_size.value_or(max_size_of(model)));
+  result.primary = subject.work.primary.size();
+  result.shadow = subject.work.shadow.size();
+  result.random = subject.work.random.size();
+  result.ambient = subject.work.ambient.size();
+  result.left_out = why_no_subdivision(subject.stage);
+  if (!result.left_out.empty()) std::printf("  Embree's subdivision is left out: %s\n", result.left_out.c_str());
+  result.measurements = measure(subject, contenders_of(options, result), options.measure);
+  result.exact = exact_errors(subject.stage, subject.exact, subject.work.primary, options.exact_hits);
+  if (result.exact.hits > 0)
+    std::printf("  exact, %zu hits against refinement in 113 bits: off by %.2g at most\n", result.exact.hits,
+                result.exact.position.max);
+  return result;
+}
+
+void write_report(const ParetoOptions& options, const std::vector<ParetoResult>& results) {
+  std::vector<NamedMeasurements> tables;
+  for (const ParetoResult& result : results) tables.push_back({result.scene, &result.measurements});
+  write_time_table(options.report / "times.csv", tables);
+  write_error_table(options.report / "errors.csv", tables);
+  write_exact_table(options.report / "exact.csv", results);
+  write_page(options.report / "pareto.json", [&](std::ostream& out) { write_pareto_json(out, results, options); });
+  write_page(options.report / "pareto.html", [&](std::ostream& out) { write_pareto_page(out, results, options); });
 }
 
 }  // namespace
@@ -128,25 +113,16 @@ double max_size_of(const ModelOptions& model) {
 int bench_pareto(const ParetoOptions& options) {
   int status = exit_done;
   run_with_threads(options.threads, [&] {
-    const Subject subject(options.model, options.size);
+    std::vector<Stage> stages;
+    for (const auto& file : options.files) stages.push_back(load_stage(model_of(options, file)));
     make_report_folder(options.report);
-    const double unit = options.unit.value_or(unit_of(options.model, subject.diagonal));
-    const double max_size = std::max(options.min_size, options.max_size.value_or(max_size_of(options.model)));
-    const std::vector<Measurement> measurements =
-        measure(subject, contenders_of(options, unit, max_size), options.measure);
-    const ExactErrors exact = exact_errors(subject.stage, subject.exact, subject.work.primary, options.exact_hits);
-    if (exact.hits > 0)
-      std::printf("  exact, %zu hits against refinement in 113 bits: off by %.2g at most\n", exact.hits,
-                  exact.position.max);
-    const std::vector<NamedMeasurements> tables{{options.model.file.stem().string(), &measurements}};
-    write_time_table(options.report / "times.csv", tables);
-    write_error_table(options.report / "errors.csv", tables);
-    write_exact_table(options.report / "exact.csv", exact);
-    write_page(options.report / "pareto.html", [&](std::ostream& out) {
-      write_pareto_page(out, options, subject, unit, max_size, measurements, exact);
-    });
-    for (const Measurement& one : measurements)
-      if (!one.fault.empty()) status = exit_check_failed;
+    std::vector<ParetoResult> results;
+    for (std::size_t i = 0; i < stages.size(); ++i)
+      results.push_back(measure_scene(options, model_of(options, options.files[i]), std::move(stages[i])));
+    write_report(options, results);
+    for (const ParetoResult& result : results)
+      for (const Measurement& one : result.measurements)
+        if (!one.fault.empty()) status = exit_check_failed;
   });
   return status;
 }

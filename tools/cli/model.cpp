@@ -40,6 +40,10 @@ CLI::Validator is_scheme_name() {
 
 void add_model_options(CLI::App& app, ModelOptions& options, const std::string& what) {
   app.add_option("MODEL", options.file, what)->required();
+  add_scheme_options(app, options);
+}
+
+void add_scheme_options(CLI::App& app, ModelOptions& options) {
   CLI::Option* const scheme = app.add_option(
       "--scheme", options.scheme,
       "Subdivision scheme: " + builtin_scheme_names() +

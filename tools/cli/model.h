@@ -35,6 +35,9 @@ CLI::Validator is_scheme_name();
 void add_model_options(CLI::App& app, ModelOptions& options,
                        const std::string& what = "The control mesh: an OBJ file with OpenSubdiv's tag lines");
 
+/// Adds --scheme and --plugin alone.
+void add_scheme_options(CLI::App& app, ModelOptions& options);
+
 /// Adds --plugin FILE.
 CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file);
 

@@ -1,7 +1,9 @@
-#include "tools/bench/embree_uniform.h"
+#include "tools/bench/embree_stage.h"
 
 #include "intersect/tessellation.h"
 #include "schemes/builtin.h"
+#include "schemes/errors.h"
+#include "tools/bench/embree_subdivision.h"
 
 namespace shaolin {
 namespace {
@@ -23,7 +25,16 @@ void check(RTCDevice device) {
 
 }  // namespace
 
-EmbreeUniform::Part EmbreeUniform::make_part(const LoadedModel& model, int level) const {
+EmbreeHandle<RTCSceneTy> EmbreeStage::scene_of(const EmbreeGeometry& geometry) const {
+  EmbreeHandle<RTCSceneTy> scene(rtcNewScene(device_.get()));
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene.get(), geometry.get());
+  rtcCommitScene(scene.get());
+  check(device_.get());
+  return scene;
+}
+
+EmbreeStage::Part EmbreeStage::make_triangles(const LoadedModel& model, int level) const {
   EmbreeTriangles triangles;
   Part part;
   with_scheme_of(model, [&](const auto& scheme) {
@@ -44,20 +55,22 @@ EmbreeUniform::Part EmbreeUniform::make_part(const LoadedModel& model, int level
         part.normals.push_back(normals);
       }
   });
-  part.scene.reset(rtcNewScene(device_.get()));
-  const EmbreeGeometry geometry = embree_geometry(device_.get(), triangles);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(part.scene.get(), geometry.get());
-  rtcCommitScene(part.scene.get());
-  check(device_.get());
+  part.scene = scene_of(embree_geometry(device_.get(), triangles));
   return part;
 }
 
-EmbreeUniform::EmbreeUniform(const Stage& stage, int level)
+EmbreeStage::Part EmbreeStage::make_subdivision(const LoadedModel& model, int level) const {
+  if (model.masks || model.scheme != "catmark") throw InputError("Embree subdivides by Catmull-Clark alone");
+  return {scene_of(embree_subdivision(device_.get(), model.mesh, level))};
+}
+
+EmbreeStage::EmbreeStage(const Stage& stage, int level, EmbreeSurface surface)
     : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)), device_(rtcNewDevice("threads=1")) {
   if (!device_) throw std::runtime_error("Embree does not start");
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, bytes_.get());
-  for (const LoadedModel& model : stage.models) parts_.push_back(make_part(model, level));
+  for (const LoadedModel& model : stage.models)
+    parts_.push_back(surface == EmbreeSurface::triangles ? make_triangles(model, level)
+                                                         : make_subdivision(model, level));
   scene_.reset(rtcNewScene(device_.get()));
   for (const SceneFile::Instance& instance : stage.scene.instances) {
     EmbreeGeometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
@@ -72,17 +85,19 @@ EmbreeUniform::EmbreeUniform(const Stage& stage, int level)
   check(device_.get());
 }
 
-std::optional<EmbreeUniform::Hit> EmbreeUniform::intersect(const Ray& ray) const {
+std::optional<EmbreeStage::Hit> EmbreeStage::intersect(const Ray& ray) const {
   const RTCRayHit found = embree_intersect(scene_.get(), ray);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const Place& place = places_[found.hit.instID[0]];
-  const auto& normals = parts_[place.part].normals[found.hit.primID];
-  const Eigen::Vector3f inside =
-      (1 - found.hit.u - found.hit.v) * normals[0] + found.hit.u * normals[1] + found.hit.v * normals[2];
+  Eigen::Vector3f inside(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
+  if (const Normals& all = parts_[place.part].normals; !all.empty()) {
+    const auto& normals = all[found.hit.primID];
+    inside = (1 - found.hit.u - found.hit.v) * normals[0] + found.hit.u * normals[1] + found.hit.v * normals[2];
+  }
   return Hit{found.ray.tfar, (place.normals * inside.cast<double>()).normalized()};
 }
 
-std::size_t EmbreeUniform::bytes() const {
+std::size_t EmbreeStage::bytes() const {
   std::size_t total = static_cast<std::size_t>(bytes_->load());
   for (const Part& part : parts_) total += part.normals.size() * sizeof(part.normals[0]);
   return total;

@@ -1,0 +1,58 @@
+#pragma once
+/// The peer on whole scenes: Embree 3, by the triangles of Uniform or by its own subdivision geometry.
+#include <atomic>
+#include <cstddef>
+
+#include "tools/bench/embree_parts.h"
+#include "tools/cli/stage.h"
+
+namespace shaolin {
+
+enum class EmbreeSurface {
+  triangles,   ///< of intersect/tessellation.h in single precision, with their corners' limit normals
+  subdivision  ///< see embree_subdivision(); Catmull-Clark alone
+};
+
+/// Each object is tessellated once, at once, and shared by its instances (Uniform waits for a ray to come near). One
+/// thread builds.
+class EmbreeStage {
+ public:
+  struct Hit {
+    double t;
+    Vec3 normal;  ///< unit; interpolated from the limit normals, of subdivision the facet's
+  };
+
+  /// Throws what tessellate() and embree_subdivision() throw, InputError for subdivision by another scheme than
+  /// catmark, std::runtime_error if Embree fails.
+  EmbreeStage(const Stage& stage, int level, EmbreeSurface surface = EmbreeSurface::triangles);
+
+  std::optional<Hit> intersect(const Ray& ray) const;
+  bool occluded(const Ray& ray) const { return embree_occluded(scene_.get(), ray); }
+
+  /// What Embree holds, and the normals.
+  std::size_t bytes() const;
+
+ private:
+  using Normals = std::vector<std::array<Eigen::Vector3f, 3>>;  ///< of a triangle's corners
+
+  struct Part {
+    EmbreeHandle<RTCSceneTy> scene;
+    Normals normals{};  ///< by triangle; empty for subdivision
+  };
+  struct Place {
+    std::size_t part;
+    Eigen::Matrix3d normals;  ///< from the object's space to the world's
+  };
+
+  Part make_triangles(const LoadedModel& model, int level) const;
+  Part make_subdivision(const LoadedModel& model, int level) const;
+  EmbreeHandle<RTCSceneTy> scene_of(const EmbreeGeometry& geometry) const;
+
+  std::unique_ptr<std::atomic<std::ptrdiff_t>> bytes_;  ///< of Embree; it outlives the device, which counts with it
+  EmbreeDevice device_;
+  std::vector<Part> parts_;
+  std::vector<Place> places_;  ///< by instance
+  EmbreeHandle<RTCSceneTy> scene_;
+};
+
+}  // namespace shaolin

@@ -1,0 +1,83 @@
+#include <nlohmann/json.hpp>
+
+#include "tools/bench/pareto.h"
+
+namespace shaolin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Quantiles& of) { return {{"median", of.median}, {"p99", of.p99}, {"max", of.max}}; }
+
+Json to_json(const Spread& of) { return {{"median", of.median}, {"least", of.least}, {"most", of.most}}; }
+
+Json to_json(const ErrorFigures& errors, bool has_band) {
+  Json json{{"rays", errors.rays},
+            {"hits", errors.hits},
+            {"distance", to_json(errors.distance)},
+            {"normal", to_json(errors.normal)},
+            {"lost", errors.lost},
+            {"ghosts", errors.ghosts}};
+  if (has_band)
+    json.update({{"farther", errors.farther},
+                 {"nearer", errors.nearer},
+                 {"lost_outside", errors.lost_outside},
+                 {"ghosts_outside", errors.ghosts_outside}});
+  return json;
+}
+
+Json to_json(const Measurement& one) {
+  Json json{{"method", one.contender.method()}};
+  if (one.contender.is_adaptive()) json["epsilon"] = one.contender.epsilon;
+  if (one.contender.is_uniform()) json["level"] = one.contender.level;
+  json["estimated"] = one.estimated;
+  json["bytes"] = one.bytes;
+  if (one.estimated) return json;
+  if (!one.fault.empty()) json["fault"] = one.fault;
+  if (one.is_timed()) json["peak_bytes"] = one.peak_bytes;
+  for (const Phase phase : phases)
+    if (one.is_timed(phase)) {
+      json["seconds"][name_of(phase)] = to_json(spread(one.times(phase)));
+      json["seconds"][name_of(phase)]["runs"] = one.times(phase);
+    }
+  json["errors"] = to_json(one.errors, one.contender.is_adaptive());
+  json["occluded_differs"] = one.occluded_differs;
+  json["random_hits"] = one.random_hits;
+  json["random_differs"] = one.random_differs;
+  json["ambient_hits"] = one.ambient_hits;
+  return json;
+}
+
+Json to_json(const ParetoResult& result) {
+  Json json{{"scene", result.scene},
+            {"unit", result.unit},
+            {"max_size", result.max_size},
+            {"diagonal", result.diagonal},
+            {"rays",
+             {{"primary", result.primary},
+              {"shadow", result.shadow},
+              {"random", result.random},
+              {"ambient", result.ambient}}}};
+  if (!result.left_out.empty()) json["embree_subdivision_left_out"] = result.left_out;
+  json["measurements"] = Json::array();
+  for (const Measurement& one : result.measurements) json["measurements"].push_back(to_json(one));
+  json["exact"] = {{"hits", result.exact.hits},
+                   {"position", to_json(result.exact.position)},
+                   {"across", to_json(result.exact.across)},
+                   {"along", to_json(result.exact.along)}};
+  return json;
+}
+
+}  // namespace
+
+void write_pareto_json(std::ostream& out, const std::vector<ParetoResult>& results, const ParetoOptions& options) {
+  Json json{{"size", {options.size.width, options.size.height}},
+            {"runs", options.measure.runs},
+            {"threads", 1},
+            {"min_size", options.min_size},
+            {"scenes", Json::array()}};
+  for (const ParetoResult& result : results) json["scenes"].push_back(to_json(result));
+  out << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace shaolin
