@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "ray.h"
 
@@ -43,6 +44,13 @@ struct Box {
   }
   double largest_coordinate() const { return std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()); }
 };
+
+/// The bounds of points.
+inline Box hull_of(std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& point : points) box.add(point);
+  return box;
+}
 
 /// A ray prepared for traversal: unit direction, distances in place of t.
 struct TraversalRay {

@@ -16,6 +16,15 @@ EightBoxes::EightBoxes() {
   for (auto& axis : bounds[1]) std::fill(std::begin(axis), std::end(axis), -infinity);
 }
 
+SceneBox EightBoxes::bound() const {
+  SceneBox all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.bounds[0][axis] = *std::min_element(std::begin(bounds[0][axis]), std::end(bounds[0][axis]));
+    all.bounds[1][axis] = *std::max_element(std::begin(bounds[1][axis]), std::end(bounds[1][axis]));
+  }
+  return all;
+}
+
 SceneBox::SceneBox(const Box& box, const BoxSpace& space) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Vec3 lower = space(box.lower), upper = space(box.upper);

@@ -27,7 +27,15 @@ struct BoxSpace {
 struct SceneBox {
   float bounds[2][3];  ///< [lower, upper][axis]
 
+  SceneBox() = default;
   SceneBox(const Box& box, const BoxSpace& space);
+
+  void add(const SceneBox& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds[0][axis] = std::min(bounds[0][axis], box.bounds[0][axis]);
+      bounds[1][axis] = std::max(bounds[1][axis], box.bounds[1][axis]);
+    }
+  }
 };
 
 /// Eight boxes side by side, so that one pass of vector instructions tests them all.
@@ -40,6 +48,8 @@ struct alignas(32) EightBoxes {
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t axis = 0; axis < 3; ++axis) bounds[side][axis][i] = box.bounds[side][axis];
   }
+  /// A box that holds all.
+  SceneBox bound() const;
 };
 
 /// A ray in a scene's coordinates, from a start near the scene on, in single precision; on both sides of its origin if
@@ -110,10 +120,15 @@ class BoxRay {
   std::array<std::uint8_t, 3> entered_at_;
 };
 
-/// Those of eight boxes that a ray meets, nearest first, with the distances (in the ray's units) at which it enters.
+/// Those of up to sixteen boxes that a ray meets, nearest first, with the distances (in the ray's units) at which it
+/// enters.
 class BoxOrder {
  public:
-  BoxOrder(const EightBoxes& boxes, const BoxRay& ray, float far) {
+  BoxOrder() = default;
+  BoxOrder(const EightBoxes& boxes, const BoxRay& ray, float far) { add(boxes, 0, ray, far); }
+
+  /// Eight boxes, numbered from `first` on.
+  void add(const EightBoxes& boxes, std::size_t first, const BoxRay& ray, float far) {
     alignas(32) std::array<float, 8> entries;
     for (unsigned met = ray.meet(boxes, far, entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
@@ -123,7 +138,7 @@ class BoxOrder {
         box_[at] = box_[at - 1];
       }
       distance_[at] = entries[i];
-      box_[at] = static_cast<std::uint8_t>(i);
+      box_[at] = static_cast<std::uint8_t>(first + i);
     }
   }
 
@@ -133,8 +148,8 @@ class BoxOrder {
 
  private:
   std::size_t count_ = 0;
-  std::array<std::uint8_t, 8> box_;
-  std::array<float, 8> distance_;
+  std::array<std::uint8_t, 16> box_;
+  std::array<float, 16> distance_;
 };
 
 }  // namespace shaolin

@@ -19,47 +19,64 @@ namespace shaolin {
 /// control points against RP and CP, which hold the limit.
 template <Scheme S>
 class ExactFinish {
-  using Node = PatchNode<S>;
-  using Regular = RegularPatch<S::face_kind>;
+  using Polynomial = RegularPatch<S::face_kind>;
+  using D = Domain<S::face_kind>;
 
  public:
   /// The patch of a face, or of an n-gon's corner, its own box, which is tighter than the face's in the hierarchy, and
-  /// the normal of its plane TP.
+  /// the normal of its plane TP. The neighbourhood of an irregular face is much larger than its patch, so its box is
+  /// that of its parts.
   class StartPatch {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ExactFinish&, TreeTotals& totals)
-        : normal_(chord_plane_normal(patch)), root_(std::move(patch), level, space, totals), box_(root_.box(), space) {}
+        : normal_(chord_plane_normal(patch)),
+          reach_(hull_of(patch.points)),
+          patch_(PatchNode<S>::make(std::move(patch), Place{{}, level})),
+          box_(patch_->is_polynomial() || patch_->is_leaf() ? SceneBox(patch_->bound(), space)
+                                                            : Parts<S>::of(*patch_, parts_, space, totals).bound()) {}
+    ~StartPatch() { delete parts_.load(); }
+    StartPatch(const StartPatch&) = delete;
+    StartPatch& operator=(const StartPatch&) = delete;
 
     const SceneBox& box() const { return box_; }
-    const Node& root() const { return root_; }
+    const PatchNode<S>& patch() const { return *patch_; }
+    typename Parts<S>::Slot& parts() const { return parts_; }
     const Vec3& normal() const { return normal_; }
-    std::uint64_t bytes() const { return root_.own_bytes(); }
+    /// A box of the control points.
+    const Box& reach() const { return reach_; }
+    std::uint64_t bytes() const { return patch_->bytes(); }
 
    private:
     Vec3 normal_;
-    Node root_;
+    Box reach_;
+    std::unique_ptr<const PatchNode<S>> patch_;
+    mutable typename Parts<S>::Slot parts_{nullptr};
     SceneBox box_;
   };
 
-  /// A place in a node's parameters, met at a distance along the ray.
+  /// A place in a patch's parameters, met at a distance along the ray, and the level of the piece that met it.
   struct Found {
-    const Node* node;
+    const PatchNode<S>* patch;
     Parameter at;
+    int level;
     double distance;
   };
 
   template <Query query>
   std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
-    Search search(start.normal(), approach, totals);
-    search.template descend<query>(start.root());
+    Search search(start, approach, totals);
+    if (start.patch().is_leaf())
+      search.finish(start.patch(), 0);
+    else
+      search.template descend<query>(start.patch(), start.parts());
     return search.found;
   }
 
   Hit hit(const Found& found, int face, int sub, const SchemeSurface<S>& surface) const {
-    const Parameter at = Domain<S::face_kind>::nearest(found.node->to_root(found.at));
+    const Parameter at = D::nearest(found.patch->place().domain(found.at));
     Hit hit;
     hit.at = {face, sub, at.x(), at.y()};
-    hit.level = found.node->level();
+    hit.level = found.level;
     hit.sample = sample(found, hit.at, surface);
     return hit;
   }
@@ -68,35 +85,48 @@ class ExactFinish {
   /// A ray on its way through one start patch.
   class Search {
    public:
-    Search(const Vec3& normal, const Approach& approach, TreeTotals& totals)
-        : plane_normal_(normal), approach_(approach), totals_(totals) {}
+    Search(const StartPatch& start, const Approach& approach, TreeTotals& totals)
+        : start_(start), approach_(approach), totals_(totals) {}
 
+    /// Through the parts of a patch.
     template <Query query>
-    void descend(const Node& node);
+    void descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny = false);
+    /// At a leaf: a piece of a polynomial, or a patch without one.
+    void finish(const PatchNode<S>& patch, int piece);
 
     std::optional<Found> found;
 
    private:
-    void finish(const Node& node);
-    void finish_by_refinement(const Node& node);
-    void finish_irregular(const Node& node, const Box& hull);
+    bool may_meet(const PatchNode<S>& patch, bool is_tiny);
+    bool may_meet(const Box& hull) const {
+      const Vec3 &low = hull.lower, &high = hull.upper;
+      return low.x() <= 2 * error_ && high.x() >= -2 * error_ && low.y() <= 2 * error_ && high.y() >= -2 * error_;
+    }
+    bool project(const Net& net, int number, Net& piece);
+    void finish_by_refinement(const IrregularPatch<S>& patch);
+    void finish_as_point(const PatchNode<S>& patch, const Vec3& point, const Box& hull);
 
-    /// The ray's frame, made when a patch first asks: most rays miss the boxes of most patches.
+    /// The ray's frame, and the error of coordinates in it, made when a patch first asks: most rays miss the boxes of
+    /// most patches.
     const RayFrame& frame() {
-      if (!frame_) frame_.emplace(approach_.ray, plane_normal_);
+      if (!frame_) {
+        frame_.emplace(approach_.ray, start_.normal());
+        error_ = frame_->error(start_.reach());
+      }
       return *frame_;
     }
 
-    /// The nearest hit so far.
-    void take(const Node& node, const PatchHit& nearest) {
-      found = Found{&node, nearest.at, nearest.distance};
-      approach_.shorten(nearest.distance);
+    /// The nearest hit so far, in the patch's parameters.
+    void take(const PatchNode<S>& patch, const Parameter& at, int level, double distance) {
+      found = Found{&patch, at, level, distance};
+      approach_.shorten(distance);
     }
 
-    const Vec3& plane_normal_;
+    const StartPatch& start_;
     Approach approach_;
     TreeTotals& totals_;
     std::optional<RayFrame> frame_;
+    double error_ = 0;
   };
 
   static LimitSample sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface);
@@ -108,92 +138,123 @@ class ExactFinish {
 template <Scheme S>
 LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface) {
   constexpr int deepest_absolute = 8;
-  const bool regular = found.node->is_regular();
-  if (regular && found.node->level() <= deepest_absolute && !surface.control_mesh().is_collapsed(at.face))
+  const bool is_polynomial = found.patch->is_polynomial();
+  if (is_polynomial && found.patch->place().level() <= deepest_absolute &&
+      !surface.control_mesh().is_collapsed(at.face))
     return polynomial_sample(found);
-  // The position stays the node's own: near u or v = 1 parameters are too coarse to find it again.
+  // The position stays the patch's own: near u or v = 1 parameters are too coarse to find it again.
   LimitSample sample = *surface.evaluate(at);
-  if (regular) {
-    sample.position = found.node->regular().template bezier<Regular>().position(found.at);
-  } else if (!found.node->is_leaf()) {
-    sample.position = found.node->irregular().points.front();
-  }
+  if (is_polynomial)
+    sample.position = static_cast<const PolynomialPatch<S>&>(*found.patch).polynomial().position(found.at);
+  else if (!found.patch->is_leaf())
+    sample.position = static_cast<const IrregularPatch<S>&>(*found.patch).patch().points.front();
   return sample;
 }
 
 template <Scheme S>
 SHAOLIN_FLATTEN LimitSample ExactFinish<S>::polynomial_sample(const Found& found) {
-  const double scale = found.node->scale();  // plus or minus 2^-level
-  return detail::sample(found.node->regular().template bezier<Regular>(), found.at, Vec3::Zero(),
-                        {std::copysign(1.0, scale), -std::ilogb(scale), 0});
+  LimitSample sample =
+      detail::sample(static_cast<const PolynomialPatch<S>&>(*found.patch).polynomial(), found.at, Vec3::Zero(), {});
+  const Parameter inverse = found.patch->place().domain.scale.cwiseInverse();
+  Derivatives& d = *sample.derivatives;
+  d.du *= inverse.x();
+  d.dv *= inverse.y();
+  d.duu *= inverse.x() * inverse.x();
+  d.duv *= inverse.x() * inverse.y();
+  d.dvv *= inverse.y() * inverse.y();
+  return sample;
 }
 
-/// RP and CP tests of a patch's control points, then its shadow list: the children that the ray's box test leaves,
-/// front to back. A patch that is split already has been through the tests for another ray; its children's boxes are
-/// quicker to ask. So that this changes no answer, the tests here pass whatever a leaf's may pass: twice its error.
+/// The patch's shadow list: the parts that the ray's box test leaves, front to back.
 template <Scheme S>
 template <Query query>
-void ExactFinish<S>::Search::descend(const Node& node) {
-  if (node.is_leaf()) return finish(node);
-
-  const typename Node::Children* children = node.known_children();
-  if (!children || node.is_tiny()) {
-    ++approach_.counters.hull_tests;
-    const Box hull =
-        node.is_regular()
-            ? frame().hull(node.regular())
-            : frame().hull(node.irregular().points).expanded(node.irregular().configuration->hull_expansion());
-    const Vec3 &low = hull.lower, &high = hull.upper;
-    const double error = frame().error(node.box());
-    if (low.x() > 2 * error || high.x() < -2 * error || low.y() > 2 * error || high.y() < -2 * error) return;
-    // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
-    if (node.is_tiny() && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error &&
-        high.z() - low.z() <= 64 * error)
-      return finish_irregular(node, hull);
-    // Where patches shrink by 0.93 a level or less, rounding error is reached in as many levels.
-    constexpr int most_levels = 500;
-    if (node.level() >= most_levels)
-      throw InputError("a patch does not shrink to a point in " + std::to_string(most_levels) +
-                       " levels: the masks of the scheme do not converge; see 'shaolin scheme check'");
-    children = &node.children(approach_.space, totals_);
+void ExactFinish<S>::Search::descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny) {
+  const Parts<S>* parts = slot.load(std::memory_order_acquire);
+  if (!parts || is_tiny) {
+    if (!may_meet(patch, is_tiny)) return;
+    parts = &Parts<S>::of(patch, slot, approach_.space, totals_);
   }
-
-  const BoxOrder shadow_list(children->boxes, approach_.box_ray, approach_.box_far());
+  BoxOrder shadow_list(parts->first().boxes, approach_.box_ray, approach_.box_far());
+  if (parts->second()) shadow_list.add(parts->second()->boxes, 8, approach_.box_ray, approach_.box_far());
   for (std::size_t i = 0; i < shadow_list.count() && shadow_list.distance(i) <= approach_.box_far(); ++i) {
-    descend<query>(children->nodes[shadow_list.box(i)]);
+    const std::size_t box = shadow_list.box(i);
+    const typename Parts<S>::Eight& eight = box < 8 ? parts->first() : *parts->second();
+    const PatchNode<S>& part = *eight.patch[box % 8];
+    if (const std::int8_t piece = eight.piece[box % 8]; piece >= 0)
+      finish(part, piece);
+    else
+      descend<query>(part, eight.parts[box % 8], piece == Parts<S>::tiny);
     if (query == Query::any && found) return;
   }
 }
 
+/// RP and CP tests of a patch's control points. A patch whose parts are known has been through them for another ray;
+/// its parts' boxes are quicker to ask. So that this changes no answer, they pass whatever a leaf's may pass: twice its
+/// error. A tiny patch that is a point seen from the ray is met here.
 template <Scheme S>
-void ExactFinish<S>::Search::finish(const Node& node) {
-  if (!node.is_regular()) return finish_by_refinement(node);
-  Net projected;
-  frame().project(node.regular(), projected);
-  NewtonFinish<Regular> solver(frame().error(node.box()), approach_.ray.near, approach_.far(), approach_.far_is_hit(),
-                               approach_.counters);
-  if (solver.solve(projected)) take(node, solver.hit());
+bool ExactFinish<S>::Search::may_meet(const PatchNode<S>& patch, bool is_tiny) {
+  ++approach_.counters.hull_tests;
+  if (patch.is_polynomial()) return may_meet(frame().hull(static_cast<const PolynomialPatch<S>&>(patch).net()));
+  const Patch<S>& irregular = static_cast<const IrregularPatch<S>&>(patch).patch();
+  const Box hull = frame().hull(irregular.points).expanded(irregular.configuration->hull_expansion());
+  if (!may_meet(hull)) return false;
+  const Vec3 &low = hull.lower, &high = hull.upper;
+  // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
+  if (is_tiny && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error_ &&
+      high.z() - low.z() <= 64 * error_) {
+    finish_as_point(patch, irregular.points.front(), hull);
+    return false;
+  }
+  // Where patches shrink by 0.93 a level or less, rounding error is reached in as many levels.
+  constexpr int most_levels = 500;
+  if (patch.place().level() >= most_levels)
+    throw InputError("a patch does not shrink to a point in " + std::to_string(most_levels) +
+                     " levels: the masks of the scheme do not converge; see 'shaolin scheme check'");
+  return true;
+}
+
+template <Scheme S>
+void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
+  if (!patch.is_polynomial()) return finish_by_refinement(static_cast<const IrregularPatch<S>&>(patch));
+  Net cell;
+  if (!project(static_cast<const PolynomialPatch<S>&>(patch).net(), number, cell)) return;
+  NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
+                                  approach_.counters);
+  if (!solver.solve(cell)) return;
+  const SubDomain piece = Pieces<Polynomial>::domain(number);
+  take(patch, piece(solver.hit().at), patch.place().part(piece).level(), solver.hit().distance);
+}
+
+/// A piece of a net in the ray's coordinates; false if a test of the planes finds it to one side, before the others are
+/// made. These are the first tests of NewtonFinish, and turn away most.
+template <Scheme S>
+SHAOLIN_FLATTEN bool ExactFinish<S>::Search::project(const Net& net, int number, Net& piece) {
+  const Pieces<Polynomial>& pieces = pieces_of<Polynomial>;
+  Net whole;
+  frame().project(net, whole);
+  if (const Range x(pieces.restrict_to(number, whole.x, piece.x)); x.low > error_ || x.high < -error_) return false;
+  if (const Range y(pieces.restrict_to(number, whole.y, piece.y)); y.low > error_ || y.high < -error_) return false;
+  pieces.restrict_to(number, whole.z, piece.z);
+  return true;
 }
 
 /// Masks with negative weights amplify rounding: by as much as their limit functions' absolute values sum to, a level;
 /// four times the polynomials' error covers the 50 levels of a sum of 2.
 template <Scheme S>
-void ExactFinish<S>::Search::finish_by_refinement(const Node& node) {
-  Patch<S> projected = node.irregular();
+void ExactFinish<S>::Search::finish_by_refinement(const IrregularPatch<S>& patch) {
+  Patch<S> projected = patch.patch();
   for (Vec3& point : projected.points) point = frame().project(point);
-  RefiningFinish<S> solver(4 * frame().error(node.box()), approach_.ray.near, approach_.far(), approach_.far_is_hit(),
-                           approach_.counters);
-  if (solver.solve(projected)) take(node, solver.hit());
+  RefiningFinish<S> solver(4 * error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(), approach_.counters);
+  if (solver.solve(projected)) take(patch, solver.hit().at, patch.place().level(), solver.hit().distance);
 }
 
 /// The whole patch is one point to within rounding: the irregular corner's limit.
 template <Scheme S>
-void ExactFinish<S>::Search::finish_irregular(const Node& node, const Box& hull) {
-  const double error = frame().error(node.box());
-  if (hull.upper.z() < approach_.ray.near - error) return;
-  const double distance = std::max(frame().project(node.irregular().points.front()).z(), approach_.ray.near);
-  if (distance > approach_.far() - (approach_.far_is_hit() ? error : 0)) return;
-  take(node, {Domain<S::face_kind>::centre(), distance});
+void ExactFinish<S>::Search::finish_as_point(const PatchNode<S>& patch, const Vec3& point, const Box& hull) {
+  if (hull.upper.z() < approach_.ray.near - error_) return;
+  const double distance = std::max(frame().project(point).z(), approach_.ray.near);
+  if (distance > approach_.far() - (approach_.far_is_hit() ? error_ : 0)) return;
+  take(patch, D::centre(), patch.place().level(), distance);
 }
 
 }  // namespace shaolin

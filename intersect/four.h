@@ -30,6 +30,15 @@ class Four {
   friend Four smaller(Four a, Four b) { return Four(_mm256_min_pd(a.value_, b.value_)); }
   /// Bit i is set where a <= b in place i.
   friend int at_most(Four a, Four b) { return _mm256_movemask_pd(_mm256_cmp_pd(a.value_, b.value_, _CMP_LE_OQ)); }
+  /// (a1, a2, a3, a0).
+  friend Four rotated(Four a) {
+    return Four(_mm256_shuffle_pd(a.value_, _mm256_permute2f128_pd(a.value_, a.value_, 1), 0b0101));
+  }
+  /// The four sums (x0 + x1) + (x2 + x3).
+  friend Four sums(Four a, Four b, Four c, Four d) {
+    const __m256d ab = _mm256_hadd_pd(a.value_, b.value_), cd = _mm256_hadd_pd(c.value_, d.value_);
+    return Four(_mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x20), _mm256_permute2f128_pd(ab, cd, 0x31)));
+  }
 
  private:
   explicit Four(__m256d value) : value_(value) {}
@@ -61,6 +70,14 @@ class Four {
   /// Bit i is set where a <= b in place i.
   friend int at_most(Four a, Four b) {
     return _mm_movemask_pd(_mm_cmple_pd(a.low_, b.low_)) | _mm_movemask_pd(_mm_cmple_pd(a.high_, b.high_)) << 2;
+  }
+  /// (a1, a2, a3, a0).
+  friend Four rotated(Four a) { return {_mm_shuffle_pd(a.low_, a.high_, 0b01), _mm_shuffle_pd(a.high_, a.low_, 0b01)}; }
+  /// The four sums (x0 + x1) + (x2 + x3).
+  friend Four sums(Four a, Four b, Four c, Four d) {
+    const auto pairs = [](__m128d x, __m128d y) { return _mm_add_pd(_mm_unpacklo_pd(x, y), _mm_unpackhi_pd(x, y)); };
+    return {_mm_add_pd(pairs(a.low_, b.low_), pairs(a.high_, b.high_)),
+            _mm_add_pd(pairs(c.low_, d.low_), pairs(c.high_, d.high_))};
   }
 
  private:
@@ -100,6 +117,13 @@ class Four {
     int bits = 0;
     for (std::size_t i = 0; i < 4; ++i) bits |= (a.value_[i] <= b.value_[i]) << i;
     return bits;
+  }
+  friend Four rotated(const Four& a) {
+    return Four(std::array{a.value_[1], a.value_[2], a.value_[3], a.value_[0]}.data());
+  }
+  friend Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
+    const auto sum = [](const Four& x) { return (x.value_[0] + x.value_[1]) + (x.value_[2] + x.value_[3]); };
+    return Four(std::array{sum(a), sum(b), sum(c), sum(d)}.data());
   }
 
  private:

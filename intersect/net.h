@@ -4,6 +4,7 @@
 #include <array>
 
 #include "../schemes/limit_sample.h"
+#include "box.h"
 #include "four.h"
 
 namespace shaolin {
@@ -46,12 +47,22 @@ struct Range {
   }
 };
 
+/// The bounds of a net's points.
+inline Box hull_of(const Net& net) {
+  const Range x(net.x), y(net.y), z(net.z);
+  return {Vec3(x.low, y.low, z.low), Vec3(x.high, y.high, z.high)};
+}
+
+/// Products of sixteen values and weights, summed to four.
+inline Four partial_dot(const std::array<double, 16>& v, const std::array<double, 16>& w) {
+  return (Four(&v[0]) * Four(&w[0]) + Four(&v[4]) * Four(&w[4])) +
+         (Four(&v[8]) * Four(&w[8]) + Four(&v[12]) * Four(&w[12]));
+}
+
 /// The sum of products of sixteen values and weights.
 inline double dot(const std::array<double, 16>& v, const std::array<double, 16>& w) {
-  const Four sum = (Four(&v[0]) * Four(&w[0]) + Four(&v[4]) * Four(&w[4])) +
-                   (Four(&v[8]) * Four(&w[8]) + Four(&v[12]) * Four(&w[12]));
   std::array<double, 4> part;
-  sum.store(part.data());
+  partial_dot(v, w).store(part.data());
   return (part[0] + part[1]) + (part[2] + part[3]);
 }
 

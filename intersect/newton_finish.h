@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 
+#include "../schemes/bezier_quad.h"
 #include "../schemes/domain.h"
 #include "counters.h"
 #include "flatten.h"
@@ -66,7 +68,9 @@ class NewtonFinish {
   bool in_band(const Range& x, const Range& y) const {
     return std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
   }
-  bool is_no_nearer(const Net& cell, const Matrix& jacobian) const;
+  static Eigen::Vector2d slope(const Net& cell);
+  static double nearest_on_ray(const Net& cell, const Eigen::Vector2d& ab);
+  bool is_no_nearer(const Net& cell) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
   static double corner_mean(const std::array<double, 16>& values);
@@ -118,7 +122,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
 
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
-  if (has_hit_ && cells_ > 4 && is_no_nearer(cell, jacobian)) return;
+  if (has_hit_ && cells_ > 4 && is_no_nearer(cell)) return;
   const double along_u_length = jacobian.col(0).norm(), along_v_length = jacobian.col(1).norm();
   if (std::abs(jacobian.determinant()) <= 1e-12 * along_u_length * along_v_length) {
     // Seen from the ray the cell is nearly a curve: the hull test across it.
@@ -155,24 +159,37 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   split(cell, origin, scale);
 }
 
-/// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty.
-///
-/// On the ray, z is z - a x - b y for any a and b, give or take (|a| + |b|) error. Here a and b take the mean slope of
-/// z away, as far as x and y can: a patch collapsed to a curve meets the ray in one point over and over, at one
-/// distance that the z of its cells do not show; and along a grazing ray, distances are uncertain by as much as a and b
-/// are large. So a hit may be dropped that is nearer by up to impatience x error (1 + steepest): 1e4 errors, 16 times
-/// that for rays that ask thousands of cells.
+/// Factors (a, b) that take the mean slope of z away, as far as x and y can: on the ray, z is z - a x - b y for any
+/// two, give or take (|a| + |b|) error. A patch collapsed to a curve meets the ray in one point over and over, at one
+/// distance that the z of its cells do not show.
 template <class Bezier>
-bool NewtonFinish<Bezier>::is_no_nearer(const Net& cell, const Matrix& jacobian) const {
-  const Eigen::Vector2d slope(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
+Eigen::Vector2d NewtonFinish<Bezier>::slope(const Net& cell) {
+  Matrix jacobian;
+  jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
   Matrix normal_equations = jacobian * jacobian.transpose();
   normal_equations.diagonal().array() += 1e-12 * normal_equations.trace();
-  const Eigen::Vector2d ab = normal_equations.inverse() * (jacobian * slope);
-  if (!ab.allFinite()) return false;
+  const Eigen::Vector2d mean(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
+  const Eigen::Vector2d ab = normal_equations.inverse() * (jacobian * mean);
+  return ab.allFinite() ? ab : Eigen::Vector2d::Zero();
+}
+
+/// The least z - a x - b y.
+template <class Bezier>
+double NewtonFinish<Bezier>::nearest_on_ray(const Net& cell, const Eigen::Vector2d& ab) {
   std::array<double, 16> plane, rest;
   combine(ab.x(), cell.x, ab.y(), cell.y, plane);
   combine(1, cell.z, -1, plane, rest);
-  return Range(rest).low > best_.distance - impatience() * error_ * (1 + std::min(ab.cwiseAbs().sum(), steepest));
+  return Range(rest).low;
+}
+
+/// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty:
+/// along a grazing ray, distances are uncertain by as much as a and b are large. So a hit may be dropped that is nearer
+/// by up to impatience x error (1 + steepest): 1e4 errors, 16 times that for rays that ask thousands of cells.
+template <class Bezier>
+bool NewtonFinish<Bezier>::is_no_nearer(const Net& cell) const {
+  const Eigen::Vector2d ab = slope(cell);
+  const double uncertainty = impatience() * error_ * (1 + std::min(ab.cwiseAbs().sum(), steepest));
+  return nearest_on_ray(cell, ab) > best_.distance - uncertainty;
 }
 
 /// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
@@ -182,13 +199,31 @@ template <class Bezier>
 double NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const {
   constexpr double degree = Bezier::degree;
   double along_u = 0, along_v = 0;
-  for (const auto& [from, to] : Bezier::u_pairs) {
-    const double dx = degree * (x[to] - x[from]) - 1, dy = degree * (y[to] - y[from]);
-    along_u = std::max(along_u, dx * dx + dy * dy);
-  }
-  for (const auto& [from, to] : Bezier::v_pairs) {
-    const double dx = degree * (x[to] - x[from]), dy = degree * (y[to] - y[from]) - 1;
-    along_v = std::max(along_v, dx * dx + dy * dy);
+  if constexpr (std::is_same_v<Bezier, BezierQuad>) {
+    // Rows are registers: their differences among each other go along v, those of their places along u.
+    const Four three(degree), one(1);
+    const auto square = [](Four a, Four b) { return a * a + b * b; };
+    Four most_u(0.0), most_v(0.0);
+    for (std::size_t j = 0; j < 16; j += 4) {
+      const Four xj(&x[j]), yj(&y[j]);
+      most_u = larger(square(three * (rotated(xj) - xj) - one, three * (rotated(yj) - yj)), most_u);
+      if (j == 12) break;
+      most_v = larger(square(three * (Four(&x[j + 4]) - xj), three * (Four(&y[j + 4]) - yj) - one), most_v);
+    }
+    std::array<double, 4> u, v;
+    most_u.store(u.data());
+    most_v.store(v.data());
+    along_u = std::max({u[0], u[1], u[2]});
+    along_v = std::max({v[0], v[1], v[2], v[3]});
+  } else {
+    for (const auto& [from, to] : Bezier::u_pairs) {
+      const double dx = degree * (x[to] - x[from]) - 1, dy = degree * (y[to] - y[from]);
+      along_u = std::max(along_u, dx * dx + dy * dy);
+    }
+    for (const auto& [from, to] : Bezier::v_pairs) {
+      const double dx = degree * (x[to] - x[from]), dy = degree * (y[to] - y[from]) - 1;
+      along_v = std::max(along_v, dx * dx + dy * dy);
+    }
   }
   return std::sqrt(along_u + along_v) + 1e-9;
 }
@@ -214,22 +249,30 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
   for (int i = 0; i < most_steps; ++i) {
     ++counters_.newton_steps;
     const typename Bezier::Weights weights = Bezier::weights(at);
-    const Eigen::Vector2d f(dot(cell.x, weights.value), dot(cell.y, weights.value));
+    std::array<double, 4> at_x, at_y;  // value, du, dv
+    const Four none(0.0);
+    sums(partial_dot(cell.x, weights.value), partial_dot(cell.x, weights.du), partial_dot(cell.x, weights.dv), none)
+        .store(at_x.data());
+    sums(partial_dot(cell.y, weights.value), partial_dot(cell.y, weights.du), partial_dot(cell.y, weights.dv), none)
+        .store(at_y.data());
+    const Eigen::Vector2d f(at_x[0], at_y[0]);
     const bool on_ray = f.cwiseAbs().maxCoeff() <= error_;
     if (!on_ray) {
       const Eigen::Vector2d g = flattening * f;
       const Parameter image = at - g;
-      const double reach = contraction * g.norm() / (1 - contraction) + slack;
-      if ((image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
+      if (!D::contains(image)) {
+        const double reach = contraction * g.norm() / (1 - contraction) + slack;
+        if ((image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
+      }
     }
     Matrix jacobian;
-    jacobian << dot(cell.x, weights.du), dot(cell.x, weights.dv), dot(cell.y, weights.du), dot(cell.y, weights.dv);
+    jacobian << at_x[1], at_x[2], at_y[1], at_y[2];
     const Eigen::Vector2d step = -(jacobian.inverse() * f);
     // The step from here wins the last digits: it leaves the square of its length, which is below rounding if it is
     // short and stays in the cell. To first order the distance follows it. (A long one, of a grazing ray, is not
     // taken.)
     constexpr double shortest = 1e-8;
-    const bool is_last = step.norm() <= shortest;
+    const bool is_last = step.squaredNorm() <= shortest * shortest;
     if (on_ray || (is_last && D::contains(at + step))) {
       const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
       hit = {at + last,
@@ -265,15 +308,20 @@ int NewtonFinish<Bezier>::long_axis(const Net& cell, const Parameter& scale) con
   return -1;
 }
 
+/// Nearest first, where the ray goes through the parts: by their z alone a ray that runs within the surface would come
+/// to the near end last, a step at a time. (Seen nearly edge-on, a cell's slope is no guide: errors of x and y count
+/// there as much as z does.)
 template <class Bezier>
 void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const Parameter& scale) {
+  Eigen::Vector2d ab = slope(cell);
+  if (ab.cwiseAbs().sum() > steepest) ab.setZero();
   if constexpr (requires(const Bezier& patch) { patch.halves(0); }) {
     if (const int axis = long_axis(cell, scale); axis >= 0) {
       const auto halves = cell.template bezier<Bezier>().halves(axis);
       const std::array<Net, 2> children{Net(halves[0]), Net(halves[1])};
       Parameter child_scale = scale;
       child_scale[axis] /= 2;
-      const bool upper_first = Range(children[1].z).low < Range(children[0].z).low;
+      const bool upper_first = nearest_on_ray(children[1], ab) < nearest_on_ray(children[0], ab);
       for (const std::size_t k : {upper_first ? 1U : 0U, upper_first ? 0U : 1U}) {
         Parameter child_origin = origin;
         if (k == 1) child_origin[axis] += child_scale[axis];
@@ -287,7 +335,7 @@ void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const
   std::array<std::pair<double, int>, 4> order;
   for (std::size_t k = 0; k < 4; ++k) {
     children[k] = Net(quarters[k]);
-    order[k] = {Range(children[k].z).low, static_cast<int>(k)};
+    order[k] = {nearest_on_ray(children[k], ab), static_cast<int>(k)};
   }
   std::sort(order.begin(), order.end());
   for (const auto& [distance, k] : order) {

@@ -45,8 +45,7 @@ class RayFrame {
   Box hull(const Net& points) const {
     Net projected;
     project(points, projected);
-    const Range x(projected.x), y(projected.y), z(projected.z);
-    return {Vec3(x.low, y.low, z.low), Vec3(x.high, y.high, z.high)};
+    return hull_of(projected);
   }
   template <class Points>
   Box hull(const Points& points) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corner_regularity.h"
+#include "crease_strips.h"
 #include "domain.h"
 #include "flat_net.h"
 #include "hull_expansion.h"
@@ -60,6 +61,7 @@ class Configuration {
   ~Configuration() {
     for (const auto& child : children_) delete child.load();
     delete split_.load();
+    delete crease_strips_.load();
     for (const auto& rows : limit_rows_) delete rows.load();
     delete hull_expansion_.load();
     delete descents_.load();
@@ -79,6 +81,16 @@ class Configuration {
   /// What a regular patch is made of; empty for an irregular one.
   const std::optional<Layout>& layout() const { return layout_; }
   bool is_regular() const { return layout_.has_value(); }
+
+  /// The polynomials beside a semi-sharp crease; empty for any other configuration. Thread-safe.
+  const std::optional<CreaseStrips>& crease_strips() const {
+    return once(crease_strips_, [&]() -> std::optional<CreaseStrips> {
+      if (S::face_kind != FaceKind::quad || basis_of(scheme()) != Basis::spline ||
+          table_.rules().creases != CreaseMethod::uniform)
+        return {};
+      return shaolin::crease_strips(neighbourhood_);
+    });
+  }
 
   /// The share of the control points' extent by which the limit patch may leave their hull: none where all masks are
   /// convex combinations, else see hull_expansion.h (Chaikin's rule) and limit_bound.h (negative masks). Found when
@@ -173,6 +185,7 @@ class Configuration {
   int point_count_;
   std::optional<Layout> layout_;
   using Descents = std::vector<std::pair<const Configuration*, Descent>>;
+  mutable std::atomic<std::optional<CreaseStrips>*> crease_strips_{nullptr};
   mutable std::atomic<double*> hull_expansion_{nullptr};
   mutable std::atomic<Descents*> descents_{nullptr};
   mutable std::atomic<std::optional<FlatNet>*> flat_net_{nullptr};

@@ -1,6 +1,7 @@
 #pragma once
 /// The parameter domain of a patch and how the four children of a split lie in it.
 #include <array>
+#include <cmath>
 
 #include <Eigen/Core>
 
@@ -76,5 +77,24 @@ struct Domain<FaceKind::triangle> {
     return {3, {1 - 2 * p.x(), 1 - 2 * p.y()}};
   }
 };
+
+/// Part of a domain: its parameters p are the domain's at origin + scale * p, coordinate by coordinate.
+struct SubDomain {
+  Parameter origin = Parameter::Zero();
+  Parameter scale = Parameter::Ones();  ///< powers of two, both negative in a turned triangle
+
+  Parameter operator()(const Parameter& at) const { return origin + scale.cwiseProduct(at); }
+  /// A part of this part.
+  SubDomain operator()(const SubDomain& part) const { return {(*this)(part.origin), scale.cwiseProduct(part.scale)}; }
+  /// Halvings along the coordinate that was halved most often.
+  int depth() const { return -std::ilogb(scale.cwiseAbs().minCoeff()); }
+};
+
+/// The part that is child k of a split.
+template <FaceKind kind>
+SubDomain child_domain(int k) {
+  using D = Domain<kind>;
+  return {D::to_parent(k, Parameter::Zero()), Parameter::Constant(D::scale(k))};
+}
 
 }  // namespace shaolin

@@ -107,7 +107,21 @@ std::vector<SplinePoint> corners(const Neighbourhood& n) {
   return points;
 }
 
-/// The 4 x 4 control points of the bicubic patch, rows along u.
+/// The twelve control points of the box spline's patch.
+std::vector<SplinePoint> box_spline_points(const Neighbourhood& n) {
+  std::vector<SplinePoint> layout(12);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<SplinePoint, 6> around = six_neighbours(corner_of(n, k));
+    layout[k] = point(n.face.vertex(static_cast<int>(k)));
+    layout[3 + k] = around[5];
+    layout[6 + 2 * k] = around[3];
+    layout[7 + 2 * k] = around[4];
+  }
+  return layout;
+}
+
+}  // namespace
+
 std::vector<SplinePoint> bicubic_grid(const Neighbourhood& n) {
   std::vector<SplinePoint> grid(16);
   const auto at = [&](int i, int j) -> SplinePoint& { return grid[static_cast<std::size_t>(4 * j + i)]; };
@@ -125,21 +139,6 @@ std::vector<SplinePoint> bicubic_grid(const Neighbourhood& n) {
   }
   return grid;
 }
-
-/// The twelve control points of the box spline's patch.
-std::vector<SplinePoint> box_spline_points(const Neighbourhood& n) {
-  std::vector<SplinePoint> layout(12);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::array<SplinePoint, 6> around = six_neighbours(corner_of(n, k));
-    layout[k] = point(n.face.vertex(static_cast<int>(k)));
-    layout[3 + k] = around[5];
-    layout[6 + 2 * k] = around[3];
-    layout[7 + 2 * k] = around[4];
-  }
-  return layout;
-}
-
-}  // namespace
 
 template <>
 std::optional<RegularLayout<BezierQuad>> regular_layout(Basis basis, const Neighbourhood& n) {

@@ -60,6 +60,10 @@ Eigen::MatrixXd bezier_matrix(const RegularLayout<Bezier>& layout, int points) {
   return matrix;
 }
 
+/// The 4 x 4 control points of a face's bicubic patch, in rows along u. Each corner's ring must be closed and of four
+/// quads, or open and regular.
+std::vector<SplinePoint> bicubic_grid(const Neighbourhood& neighbourhood);
+
 /// The layout of a regular patch; empty if the neighbourhood is irregular or no basis is known. Linear: any face of the
 /// scheme's own kind. Spline: every corner must be smooth and of regular valence, or lie on an infinitely sharp crease
 /// (a boundary) with half as many faces on this side, or be an infinitely sharp corner of a single face. Takes the
