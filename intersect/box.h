@@ -1,7 +1,9 @@
 #pragma once
 /// Axis-aligned boxes and the slab test.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -52,6 +54,13 @@ inline Box hull_of(std::span<const Vec3> points) {
   return box;
 }
 
+/// The largest power of two that is not above x, positive and finite. (Of a normal number, what its exponent says.)
+inline double power_of_two_below(double x) {
+  if (x < std::numeric_limits<double>::min()) return std::scalbn(1.0, std::ilogb(x));
+  constexpr std::uint64_t exponent = 0x7ff0000000000000;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent);
+}
+
 /// A ray prepared for traversal: unit direction, distances in place of t.
 struct TraversalRay {
   Vec3 origin, direction, inverse;
@@ -60,7 +69,7 @@ struct TraversalRay {
   explicit TraversalRay(const Ray& ray) : origin(ray.origin) {
     // Scale first, by a power of two: the square of a tiny or huge direction would underflow or overflow, and so may
     // the length itself.
-    scale_ = std::scalbn(1.0, std::ilogb(ray.direction.cwiseAbs().maxCoeff()));
+    scale_ = power_of_two_below(ray.direction.cwiseAbs().maxCoeff());
     const Vec3 scaled = ray.direction / scale_;
     scaled_length_ = scaled.norm();
     direction = scaled.normalized();

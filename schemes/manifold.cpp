@@ -68,17 +68,27 @@ class Cutter {
 
 void Cutter::collect_sides() {
   for (const SharpEdge& edge : mesh_.sharp_edges) tags_[ManifoldMesh::edge_key(edge.a, edge.b)] = edge.sharpness;
-  sides_.reserve(mesh_.face_vertices.size());
-  for (int f = 0; f < mesh_.face_count(); ++f) {
-    const std::span<const int> v = mesh_.face(f);
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const int a = v[i], b = v[(i + 1) % v.size()];
-      sides_.push_back({std::min(a, b), std::max(a, b), f, static_cast<int>(i), a < b});
+  const auto for_each_side = [&](auto visit) {
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      const std::span<const int> v = mesh_.face(f);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        const int a = v[i], b = v[(i + 1) % v.size()];
+        visit(Side{std::min(a, b), std::max(a, b), f, static_cast<int>(i), a < b});
+      }
     }
-  }
-  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.face, a.corner) < std::tie(b.low, b.high, b.face, b.corner);
-  });
+  };
+  // By counting, then within the few sides of each lower vertex: O(size).
+  std::vector<std::size_t> ends(mesh_.positions.size() + 1, 0);
+  for_each_side([&](const Side& side) { ++ends[static_cast<std::size_t>(side.low) + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  sides_.resize(mesh_.face_vertices.size());
+  for_each_side([&](const Side& side) { sides_[ends[static_cast<std::size_t>(side.low)]++] = side; });
+  std::size_t begin = 0;  // each entry of `ends` has moved on to its vertex's end
+  for (std::size_t v = 0; v < mesh_.positions.size(); begin = ends[v++])
+    std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin),
+              sides_.begin() + static_cast<std::ptrdiff_t>(ends[v]), [](const Side& x, const Side& y) {
+                return std::tie(x.high, x.face, x.corner) < std::tie(y.high, y.face, y.corner);
+              });
   counts_.resize(mesh_.positions.size());
   fans_.resize(mesh_.positions.size());
 }

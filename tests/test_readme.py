@@ -3,8 +3,9 @@
 
 test_readme.py FOLDER: FOLDER is made anew and holds the checkout's data/ and build/release/ while the
 commands run; the environment's
-SHAOLIN_BINARY is the tool. A line counts if it stands in an `sh` block and begins with `shaolin ` or
-`build/release/shaolin `; lines that end in a backslash go on. Each must exit with 0.
+SHAOLIN_BINARY is the tool, and the benchmarks stand beside it. A line counts if it stands in an `sh` block and begins with
+`shaolin `, `build/release/shaolin ` or `build/release/shaolin_bench_...`; lines that end in a backslash go on. Each must
+exit with 0.
 """
 import os
 import re
@@ -16,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
-NAMES = ("shaolin", "build/release/shaolin")
+TOOL = re.compile(r"(?:build/release/)?(shaolin)|build/release/(shaolin_bench_\w+)")
 
 
 def blocks(file, language):
@@ -27,8 +28,9 @@ def commands(file):
     for body in blocks(file, "sh"):
         for line in body.replace("\\\n", " ").splitlines():
             words = shlex.split(line, comments=True)
-            if words and words[0] in NAMES:
-                yield words[1:]
+            tool = TOOL.fullmatch(words[0]) if words else None
+            if tool:
+                yield tool[1] or tool[2], words[1:]
 
 
 def main():
@@ -42,11 +44,12 @@ def main():
 
     faults, ran = [], 0
     for file in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
-        for words in commands(file):
+        for tool, words in commands(file):
             ran += 1
-            done = subprocess.run([binary, *words], cwd=folder, capture_output=True, text=True)
+            program = binary if tool == "shaolin" else Path(binary).resolve().parent / tool
+            done = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True)
             if done.returncode != 0:
-                faults.append(f"{file.name}: shaolin {shlex.join(words)}: exit {done.returncode}\n{done.stderr}")
+                faults.append(f"{file.name}: {tool} {shlex.join(words)}: exit {done.returncode}\n{done.stderr}")
 
     consumer = ROOT / "tests" / "consumer"
     for page, language, source in (("README.md", "cmake", "CMakeLists.txt"), ("README.md", "cpp", "main.cpp"),

@@ -112,6 +112,15 @@ TEST_CASE("A ray's interval is closed: boxes that touch its ends are met", "[int
   CHECK(!met(-9, -1));
 }
 
+TEST_CASE("A power of two below a number is the one of its exponent", "[intersect][box]") {
+  using Limits = std::numeric_limits<double>;
+  for (const double x : {1.0, 1.5, std::nextafter(2.0, 0.0), 2.0, 1e300, 1e-300, Limits::max(), Limits::min(), 3e-310,
+                         Limits::denorm_min()}) {
+    CAPTURE(x);
+    CHECK(power_of_two_below(x) == std::scalbn(1.0, std::ilogb(x)));
+  }
+}
+
 TEST_CASE("The length of a direction scales distances and nothing else", "[intersect][box]") {
   for (const double length : {0x1p-1060, 1e-200, 0.5, 3.0, 1e200}) {
     CAPTURE(length);

@@ -5,6 +5,7 @@
 #include "tools/bench/lost.h"
 #include "tools/bench/paper.h"
 #include "tools/bench/pareto.h"
+#include "tools/bench/scaling.h"
 #include "tools/cli/number_checks.h"
 #include "tools/cli/parse_into.h"
 #include "tools/cli/threads.h"
@@ -15,13 +16,17 @@ namespace {
 void add_size_option(CLI::App& app, ImageSize& size) {
   app.add_option_function<std::string>("--size", parse_into(size, parse_size, "--size"), "Size in pixels")
       ->type_name("WxH")
-      ->default_str("800x800");
+      ->default_str(std::to_string(size.width) + "x" + std::to_string(size.height));
+}
+
+void add_runs_option(CLI::App& app, int& runs) {
+  app.add_option("--runs", runs, "Runs of each time; medians are shown")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
 }
 
 void add_measure_options(CLI::App& app, MeasureOptions& options, int& most_level, int& threads) {
-  app.add_option("--runs", options.runs, "Runs of each time; medians are shown")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  add_runs_option(app, options.runs);
   app.add_option("--level", most_level, "The highest level of uniform triangles and of Embree's")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
@@ -88,6 +93,23 @@ void add_pareto(CLI::App& app, Command& command) {
   sub->callback([options, &command] { command = [options] { return bench_pareto(*options); }; });
 }
 
+void add_scaling(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<ScalingOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "scaling", "What a scene costs as its control mesh grows: build, first image, one and two threads, instances");
+  sub->add_option("--faces", options->faces, "Control faces, about, of one mesh after the other")
+      ->check(CLI::Range(std::size_t{9}, std::size_t{100000000}))
+      ->capture_default_str();
+  sub->add_option("--instanced", options->instanced,
+                  "Control faces, about, of a scene of instances of 10,000 faces; 0: none")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{10000000000}))
+      ->capture_default_str();
+  add_size_option(*sub, options->size);
+  add_runs_option(*sub, options->runs);
+  add_report_option(*sub, options->report);
+  sub->callback([options, &command] { command = [options] { return bench_scaling(*options); }; });
+}
+
 void add_lost(CLI::App& app, Command& command) {
   const auto options = std::make_shared<LostOptions>();
   CLI::App* sub = app.add_subcommand("lost",
@@ -119,6 +141,7 @@ void add_bench(CLI::App& app, Command& command) {
   sub->require_subcommand(1);
   add_paper(*sub, command);
   add_pareto(*sub, command);
+  add_scaling(*sub, command);
   add_lost(*sub, command);
 }
 

@@ -1,0 +1,285 @@
+/// The subcommands of `bench` at small sizes.
+#include "tests/catch.h"
+#include "tests/tools/cli_run.h"
+#include "tools/bench/paper_figures.h"
+#include "tools/cli/json_text.h"
+
+namespace shaolin::test {
+namespace {
+
+/// A table's rows by the names of its columns.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+
+  explicit Table(const std::filesystem::path& file) : rows(read_rows(file)) {
+    INFO(file);
+    REQUIRE(rows.size() > 1);
+    header = rows.front();
+    rows.erase(rows.begin());
+    for (const auto& row : rows) REQUIRE(row.size() == header.size());
+  }
+
+  std::string text(std::size_t row, const std::string& column) const {
+    const auto at = std::find(header.begin(), header.end(), column);
+    INFO(column);
+    REQUIRE(at != header.end());
+    return rows[row][static_cast<std::size_t>(at - header.begin())];
+  }
+  double number(std::size_t row, const std::string& column) const { return std::stod(text(row, column)); }
+};
+
+/// Of one row, all columns that begin so.
+double sum_of(const Table& table, std::size_t row, const std::string& prefix) {
+  double sum = 0;
+  for (std::size_t i = 0; i < table.header.size(); ++i)
+    if (table.header[i].starts_with(prefix)) sum += std::stod(table.rows[row][i]);
+  return sum;
+}
+
+/// What must be true of every measurement.
+void check_errors(const Table& errors) {
+  for (std::size_t i = 0; i < errors.rows.size(); ++i) {
+    CAPTURE(errors.rows[i]);
+    const std::string method = errors.text(i, "method");
+    CHECK(errors.number(i, "distance_median") <= errors.number(i, "distance_p99"));
+    CHECK(errors.number(i, "distance_p99") <= errors.number(i, "distance_max"));
+    if (method == "ShaoLin exact")
+      for (const char* column : {"distance_max", "normal_max", "lost", "ghosts"}) CHECK(errors.number(i, column) == 0);
+    // A3 has no border areas: at outlines where control meshes are coarse it loses more than its tolerance implies.
+    if (method == "ShaoLin")
+      for (const char* column : {"lost_outside", "ghosts_outside"}) CHECK(errors.number(i, column) == 0);
+    // Chords of a smooth surface: the error falls to a quarter with each level.
+    if (method.starts_with("Uniform") && errors.text(i, "parameter") != "1") {
+      CHECK(errors.text(i - 1, "method") == method);
+      const double factor = errors.number(i - 1, "distance_median") / errors.number(i, "distance_median");
+      CHECK(factor > 2.5);
+      CHECK(factor < 6);
+    }
+  }
+}
+
+/// What must be true of the times of a picture's rays.
+void check_times(const Table& times, std::size_t row, int runs) {
+  CHECK(times.number(row, "runs") == runs);
+  for (const std::string phase : {"build", "cold", "camera", "shadow"}) {
+    CAPTURE(phase);
+    CHECK(times.number(row, phase + "_least") > 0);
+    CHECK(times.number(row, phase + "_least") <= times.number(row, phase));
+    CHECK(times.number(row, phase) <= times.number(row, phase + "_most"));
+  }
+  CHECK(times.number(row, "build_least") < times.number(row, "cold_least"));
+  CHECK(times.number(row, "bytes") > 0);
+  CHECK(times.number(row, "estimated") == 0);
+}
+
+}  // namespace
+
+TEST_CASE("bench paper counts every hit once, and its files can be read", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "paper", "--size", "40x40", "--runs", "2", "--level", "3", "--only",
+                                      "frogship", "--scenes", data_file("scenes"), "--report", folder / "out/paper"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  const auto file = [&](const std::string& name) { return folder / ("out/paper/" + name); };
+  const Table levels(file("levels.csv")), errors(file("errors.csv")), times(file("times.csv"));
+  REQUIRE(levels.rows.size() == 1 + 2 * 7 + 2 * 3);
+  REQUIRE(errors.rows.size() == levels.rows.size());
+  REQUIRE(times.rows.size() == levels.rows.size());
+  double before = 100;
+  for (std::size_t i = 0; i < levels.rows.size(); ++i) {
+    CAPTURE(levels.rows[i]);
+    const double hits = sum_of(levels, i, "primary_") + sum_of(levels, i, "shadow_");
+    CHECK(hits == errors.number(i, "hits") - errors.number(i, "lost") + errors.number(i, "ghosts"));
+    CHECK(hits > 300);
+    if (levels.text(i, "method") == "ShaoLin") {
+      CHECK(levels.number(i, "mean_level") <= before);
+      before = levels.number(i, "mean_level");
+    }
+    if (levels.text(i, "method").starts_with("Uniform"))
+      CHECK(levels.number(i, "mean_level") == levels.number(i, "parameter"));
+    check_times(times, i, 2);
+    for (const std::string phase : {"random", "ambient"}) CHECK(times.text(i, phase).empty());
+  }
+  check_errors(errors);
+
+  const Table memory(file("memory.csv"));
+  CHECK(memory.rows.size() == 2 * (2 + 1));
+  for (std::size_t i = 0; i < memory.rows.size(); ++i) CHECK(memory.number(i, "bytes") > 1e5);
+  const std::string page = read_file(file("paper.html"));
+  for (const char* text : {"Table 1", "4.74", "118007", "1635 MB", "<svg", "frogship-a3.png", "levels.csv"})
+    CHECK(page.find(text) != std::string::npos);
+  for (const char* picture : {"frogship-picture.png", "frogship-shaolin.png", "frogship-a3.png"})
+    CHECK(read_file(file(picture)).starts_with("\x89PNG"));
+}
+
+TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench]") {
+  const Folder folder;
+  REQUIRE(folder
+              .run({"bench", "paper", "--size", "24x24", "--runs", "1", "--level", "4", "--memory", "4", "--only",
+                    "frogship", "--catmark", "--scenes", data_file("scenes"), "--report", folder / "out"})
+              .status == 0);
+  const Table times(folder / "out/times.csv"), memory(folder / "out/memory.csv");
+  for (std::size_t i = 1; i < times.rows.size(); ++i) {
+    if (times.text(i, "method") != "Uniform") continue;
+    const bool estimated = times.number(i, "parameter") >= 4;
+    CHECK(times.number(i, "estimated") == (estimated ? 1 : 0));
+    CHECK(times.text(i, "cold").empty() == estimated);
+    if (estimated) CHECK(times.number(i, "bytes") == 4 * times.number(i - 1, "bytes"));
+  }
+  CHECK(memory.number(3, "level") == 4);
+  CHECK(memory.number(3, "estimated") == 1);
+}
+
+TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome =
+      folder.run({"bench", "pareto", data_file("torus.obj"), data_file("loop_torus.obj"), "--size", "40x40", "--runs",
+                  "2", "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.text.find("Embree's subdivision is left out: Embree subdivides by Catmull-Clark alone") !=
+        std::string::npos);
+  const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv"), exact(folder / "out/exact.csv");
+  const std::size_t without_subdivision = 1 + 2 * 9 + 2 * 4;
+  CHECK(errors.rows.size() == 2 * without_subdivision + 4);
+  check_errors(errors);
+  REQUIRE(times.rows.size() == errors.rows.size());
+  double most_peak = 0;
+  for (std::size_t i = 0; i < times.rows.size(); ++i) {
+    CAPTURE(times.rows[i]);
+    check_times(times, i, 2);
+    for (const std::string phase : {"random", "ambient"}) CHECK(times.number(i, phase) > 0);
+    most_peak = std::max(most_peak, times.number(i, "peak_bytes"));
+  }
+  CHECK(most_peak > 0);  // a run may find all the room that it needs where others were
+
+  // Both are 3 across.
+  REQUIRE(exact.rows.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(exact.number(i, "hits") == 20);
+    for (const char* column : {"position_max", "across_max", "along_max"}) {
+      CHECK(exact.number(i, column) > 0);
+      CHECK(exact.number(i, column) < 1e-14);
+    }
+  }
+
+  const std::string page = read_file(folder / "out/pareto.html");
+  for (const char* text : {"99th percentile", "<h2>torus", "<h2>loop_torus", "memory against", "Embree subdivision"})
+    CHECK(page.find(text) != std::string::npos);
+  CHECK(page.find("nan") == std::string::npos);
+  const Json json = read_json(folder / "out/pareto.json");
+  REQUIRE(json.at("scenes").size() == 2);
+  std::size_t row = 0;
+  for (const Json& scene : json.at("scenes")) {
+    CHECK(scene.contains("embree_subdivision_left_out") == (scene.at("scene") == "loop_torus"));
+    CHECK(scene.at("rays").at("primary") == 1600);
+    CHECK(scene.at("rays").at("random") == 1600);
+    for (const Json& one : scene.at("measurements")) {
+      CHECK(one.at("method") == times.text(row, "method"));
+      CHECK(one.at("seconds").at("cold").at("median") == times.number(row, "cold"));
+      CHECK(one.at("errors").at("distance").at("p99") == errors.number(row, "distance_p99"));
+      ++row;
+    }
+  }
+  CHECK(row == times.rows.size());
+}
+
+TEST_CASE("bench scaling tells what each size costs", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "scaling", "--faces", "200", "2000", "--instanced", "8000", "--size",
+                                      "32x32", "--runs", "2", "--report", folder / "out"});
+  CAPTURE(outcome.text);
+  REQUIRE(outcome.status == 0);
+  const Table table(folder / "out/scaling.csv");
+  REQUIRE(table.rows.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(table.rows[i]);
+    const bool one_mesh = i < 2;
+    CHECK(table.text(i, "scene") == (one_mesh ? "one mesh" : "instances"));
+    CHECK((table.text(i, "read").empty() || table.number(i, "read") > 0));
+    CHECK(table.text(i, "read").empty() != one_mesh);
+    for (const char* column : {"build", "bytes", "cold_1", "cold_2", "warm_1", "warm_2", "bytes_refined"})
+      CHECK(table.number(i, column) > 0);
+    CHECK(table.number(i, "rays") == 32 * 32);
+    CHECK(table.number(i, "hits") > 100);
+    CHECK(table.number(i, "hits") < 32 * 32);
+    CHECK(table.number(i, "faces_touched") > 50);
+    // 400 bytes a face are generous: a regression of what a face costs that no ray meets.
+    if (one_mesh) CHECK(table.number(i, "bytes") < 400 * table.number(i, "faces") + 100000);
+  }
+  CHECK(table.number(0, "faces") == Approx(200).epsilon(0.1));
+  CHECK(table.number(1, "faces") == Approx(2000).epsilon(0.1));
+  CHECK(table.number(2, "instances") == 1);
+  CHECK(read_file(folder / "out/scaling.html").find("<svg") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "out/torus-200.obj"));
+}
+
+TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli][bench]") {
+  const Folder folder;
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--a3", "--threads", "1"}}) {
+    std::vector<std::string> words{
+        "bench", "lost", data_file("torus.obj"), data_file("scenes/mirrors.json"), "--rays", "2000", "--seed", "7"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = folder.run(words);
+    CAPTURE(outcome.text);
+    const auto lines = split(outcome.text, '\n');
+    const bool listed = outcome.text.find("outside: ") != std::string::npos;
+    CHECK(outcome.status == (listed ? 1 : 0));
+    CHECK(lines[lines.size() - 2] == (listed ? "FAIL" : "PASS"));
+    std::istringstream row(lines[1]);
+    std::string model;
+    double epsilon = 0, rays = 0, hits = 0, lost = 0, ghosts = 0, farther = 0, nearer = 0, lost_out = 0, ghosts_out = 0;
+    row >> model >> epsilon >> rays >> hits >> lost >> ghosts >> farther >> nearer >> lost_out >> ghosts_out;
+    CHECK(model == "torus");
+    CHECK(rays == 2200);
+    CHECK(hits > 1000);
+    CHECK(lost_out <= lost + farther);
+    CHECK(ghosts_out <= ghosts + nearer);
+    CHECK(lost_out + ghosts_out <= rays / 100);
+  }
+}
+
+TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
+  const Folder folder;
+  const std::string file = folder.write("file", ""), report = folder / "out", torus = data_file("torus.obj");
+  const std::string scenes = data_file("scenes");
+  for (const std::vector<std::string>& usage : std::vector<std::vector<std::string>>{
+           {"bench"},
+           {"bench", "paper"},
+           {"bench", "paper", "--report", report, "--only", "dragon"},
+           {"bench", "paper", "--report", report, "--size", "0x8"},
+           {"bench", "paper", "--report", report, "--runs", "0"},
+           {"bench", "paper", "--report", report, "--level", "11"},
+           {"bench", "pareto", "--report", report},
+           {"bench", "pareto", torus},
+           {"bench", "pareto", torus, "--report", report, "--scheme", "doo-sabin"},
+           {"bench", "pareto", torus, "--report", report, "--unit", "0"},
+           {"bench", "pareto", torus, "--report", report, "--unit", "nan"},
+           {"bench", "scaling"},
+           {"bench", "scaling", "--report", report, "--faces", "8"},
+           {"bench", "scaling", "--report", report, "--runs", "0"},
+           {"bench", "lost"},
+           {"bench", "lost", torus, "--rays", "0"},
+           {"bench", "lost", torus, "--epsilon", "-1"},
+       }) {
+    CAPTURE(usage);
+    CHECK(folder.run(usage).status == 2);
+  }
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+           {"bench", "paper", "--report", report, "--scenes", folder / "nowhere"},
+           {"bench", "paper", "--report", file, "--scenes", scenes},
+           {"bench", "pareto", folder / "nothing.obj", "--report", report},
+           {"bench", "pareto", file, "--report", report},
+           {"bench", "pareto", torus, folder / "nothing.obj", "--report", report},
+           {"bench", "scaling", "--report", file},
+           {"bench", "lost", folder / "nothing.obj"},
+       }) {
+    CAPTURE(bad);
+    const Outcome outcome = folder.run(bad);
+    CHECK(outcome.status == 3);
+    CHECK(outcome.text.find("shaolin: error: ") != std::string::npos);
+  }
+}
+
+}  // namespace shaolin::test
