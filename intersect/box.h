@@ -72,7 +72,7 @@ struct TraversalRay {
     scale_ = power_of_two_below(ray.direction.cwiseAbs().maxCoeff());
     const Vec3 scaled = ray.direction / scale_;
     scaled_length_ = scaled.norm();
-    direction = scaled.normalized();
+    direction = scaled / scaled_length_;
     // A component that has no inverse moves the ray by 2e-308 of its way: far below the rounding of any coordinate.
     direction = (direction.array().abs() < std::numeric_limits<double>::min()).select(0.0, direction);
     inverse = direction.cwiseInverse();

@@ -10,6 +10,7 @@
 #include "counters.h"
 #include "flatten.h"
 #include "net.h"
+#include "net_evaluation.h"
 
 namespace shaolin {
 
@@ -59,6 +60,9 @@ class NewtonFinish {
   /// may lie beside straight lines along the ray, whose near end is to be found.
   static constexpr double steepest = 1e4;
 
+  /// What control points weigh at the domain's centre.
+  static inline const std::array<double, 16> centre_weights = Bezier::weights(D::centre()).value;
+
   enum class Verdict { none, found, unknown };
 
   /// A cell's parameters p stand for origin + scale * p, per coordinate.
@@ -73,7 +77,6 @@ class NewtonFinish {
   bool is_no_nearer(const Net& cell) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
-  static double corner_mean(const std::array<double, 16>& values);
   void accept(const Parameter& at, double distance, const Parameter& origin, const Parameter& scale);
 
   double impatience() const { return std::exp2(std::min(4, cells_ / patience)); }
@@ -115,7 +118,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   const bool is_point = in_band(x, y) && z.high - z.low <= 16 * error_;
   const double size = scale.cwiseAbs().maxCoeff();
   if (is_point || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience)) {
-    const double distance = dot(cell.z, Bezier::weights(D::centre()).value);
+    const double distance = dot(cell.z, centre_weights);
     accept(D::centre(), std::max(distance, near_), origin, scale);
     return;
   }
@@ -151,7 +154,8 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   const double share = contraction(flat_x, flat_y);
   if (share < 0.95 && error_ * flattening.norm() < 0.25) {
     PatchHit hit;
-    const Parameter start = D::nearest(D::centre() - Parameter(corner_mean(flat_x), corner_mean(flat_y)));
+    const Parameter start =
+        D::nearest(D::centre() - Parameter(dot(flat_x, centre_weights), dot(flat_y, centre_weights)));
     const Verdict verdict = newton(cell, flattening, share, start, hit);
     if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
     if (verdict != Verdict::unknown) return;
@@ -228,14 +232,6 @@ double NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const 
   return std::sqrt(along_u + along_v) + 1e-9;
 }
 
-/// The mean of a net's corners: where the plane that it deviates from stands at the centre.
-template <class Bezier>
-double NewtonFinish<Bezier>::corner_mean(const std::array<double, 16>& values) {
-  double sum = 0;
-  for (const std::size_t corner : Bezier::corners) sum += values[corner];
-  return sum / static_cast<double>(Bezier::corners.size());
-}
-
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
 /// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
 /// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at. A point
@@ -248,13 +244,10 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
   constexpr int most_steps = 12;
   for (int i = 0; i < most_steps; ++i) {
     ++counters_.newton_steps;
-    const typename Bezier::Weights weights = Bezier::weights(at);
+    const NetEvaluation<Bezier> evaluation(at);
     std::array<double, 4> at_x, at_y;  // value, du, dv
-    const Four none(0.0);
-    sums(partial_dot(cell.x, weights.value), partial_dot(cell.x, weights.du), partial_dot(cell.x, weights.dv), none)
-        .store(at_x.data());
-    sums(partial_dot(cell.y, weights.value), partial_dot(cell.y, weights.du), partial_dot(cell.y, weights.dv), none)
-        .store(at_y.data());
+    evaluation(cell.x).store(at_x.data());
+    evaluation(cell.y).store(at_y.data());
     const Eigen::Vector2d f(at_x[0], at_y[0]);
     const bool on_ray = f.cwiseAbs().maxCoeff() <= error_;
     if (!on_ray) {
@@ -275,8 +268,9 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     const bool is_last = step.squaredNorm() <= shortest * shortest;
     if (on_ray || (is_last && D::contains(at + step))) {
       const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
-      hit = {at + last,
-             dot(cell.z, weights.value) + dot(cell.z, weights.du) * last.x() + dot(cell.z, weights.dv) * last.y()};
+      std::array<double, 4> at_z;
+      evaluation(cell.z).store(at_z.data());
+      hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y()};
       return Verdict::found;
     }
     const Parameter next = D::nearest(at + step);

@@ -41,6 +41,17 @@ struct BezierQuad {
     return result;
   }
 
+  /// The cubic Bernstein polynomials and their derivatives.
+  struct Bernstein {
+    std::array<double, 4> value, first, second;
+    explicit Bernstein(double t) {
+      const double s = 1 - t;
+      value = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+      first = {-3 * s * s, 3 * s * (s - 2 * t), 3 * t * (2 * s - t), 3 * t * t};
+      second = {6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t};
+    }
+  };
+
   Vec3 position(const Parameter& at) const {
     const Bernstein u(at.x()), v(at.y());
     Vec3 sum = Vec3::Zero();
@@ -111,17 +122,6 @@ struct BezierQuad {
   }
 
  private:
-  /// The cubic Bernstein polynomials and their derivatives.
-  struct Bernstein {
-    std::array<double, 4> value, first, second;
-    explicit Bernstein(double t) {
-      const double s = 1 - t;
-      value = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-      first = {-3 * s * s, 3 * s * (s - 2 * t), 3 * t * (2 * s - t), 3 * t * t};
-      second = {6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t};
-    }
-  };
-
   Vec3 combine(const std::array<double, 4>& w, std::size_t row) const {
     return w[0] * b[4 * row] + w[1] * b[4 * row + 1] + w[2] * b[4 * row + 2] + w[3] * b[4 * row + 3];
   }

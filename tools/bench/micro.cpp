@@ -25,7 +25,8 @@ namespace {
 /// Patches of up to so many faces, spread over the model.
 constexpr int most_faces = 256;
 
-/// A polynomial as a ray sees it that comes along its normal, through its middle or as far beside it as it is wide.
+/// A polynomial as a ray sees it that comes along its normal, through a point off its middle or as far beside it as it is
+/// wide.
 struct Cell {
   Net met, missed;
   double error;
@@ -55,13 +56,13 @@ struct Subject {
     polynomials.push_back(polynomial);
     nets.emplace_back(polynomial);
     const Box box = hull_of(nets.back());
-    const Vec3 middle = polynomial.position(Domain<S::face_kind>::centre());
+    const Vec3 point = polynomial.position({0.15, 0.25});
     const Vec3 along_u = Polynomial::mean_du(polynomial.b);
     const Vec3 normal = along_u.cross(Polynomial::mean_dv(polynomial.b)).normalized();
     Cell cell;
     for (const bool met : {true, false}) {
       Ray ray;
-      ray.origin = middle + 3 * normal + (met ? Vec3(Vec3::Zero()) : along_u);
+      ray.origin = point + 3 * normal + (met ? Vec3(Vec3::Zero()) : along_u);
       ray.direction = -normal;
       const RayFrame frame(TraversalRay(ray), normal);
       frame.project(nets.back(), met ? cell.met : cell.missed);
