@@ -25,8 +25,8 @@ namespace {
 /// Patches of up to so many faces, spread over the model.
 constexpr int most_faces = 256;
 
-/// A polynomial as a ray sees it that comes along its normal, through a point off its middle or as far beside it as it is
-/// wide.
+/// A polynomial as a ray sees it that comes along its normal, through a point off its middle or as far beside it as it
+/// is wide.
 struct Cell {
   Net met, missed;
   double error;
