@@ -23,7 +23,7 @@ struct ScalingResult {
   std::size_t faces = 0, instances = 1;  ///< control faces in all, and how often the mesh stands in the scene
   std::vector<double> read{};            ///< the OBJ file
   std::vector<double> build{};           ///< from the mesh in memory to a scene that has met no ray
-  std::vector<double> bytes{};           ///< of the heap that this takes: mesh, hierarchies and all
+  std::vector<double> bytes{};  ///< of the heap that this takes, mesh and all; 0 where the allocator does not tell
   /// By threads, 1 and 2: the first rays of a new scene, and the same once more.
   std::array<std::vector<double>, 2> cold{}, warm{};
   std::size_t rays = 0, hits = 0;
