@@ -148,7 +148,7 @@ ScalingResult measure_mesh(std::size_t faces, const ScalingOptions& options) {
 ScalingResult measure_instances(const ScalingOptions& options) {
   const ControlMesh mesh = bumpy_torus(std::min<std::size_t>(10000, options.instanced));
   const auto faces = static_cast<std::size_t>(mesh.face_count());
-  const std::size_t copies = options.instanced / faces;
+  const std::size_t copies = std::max<std::size_t>(1, options.instanced / faces);
   const auto side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(copies))));
   ScalingResult result;
   result.scene = "instances";
