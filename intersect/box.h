@@ -33,12 +33,11 @@ struct Box {
     const Vec3 margin = share * (upper - lower);
     return {lower - margin, upper + margin};
   }
-  /// Grown by what rounding may take from a hull of control points: the part of RayFrame::error() that comes with them,
-  /// derived there. A box test must not be stricter than the tests of projected points.
-  Box with_rounding() const {
-    const Vec3 slack = Vec3::Constant(160 * unit_roundoff * largest_coordinate());
-    return {lower - slack, upper + slack};
-  }
+  Box grown(double slack) const { return {lower - Vec3::Constant(slack), upper + Vec3::Constant(slack)}; }
+  /// What rounding may take from the hull of control points in the box: the part of RayFrame::error() that comes with
+  /// them, derived there. A box test must not be stricter than the tests of projected points.
+  double rounding() const { return 160 * unit_roundoff * largest_coordinate(); }
+  Box with_rounding() const { return grown(rounding()); }
   Vec3 centre() const { return 0.5 * lower + 0.5 * upper; }
   double half_area() const {
     const Vec3 e = upper - lower;

@@ -31,7 +31,7 @@ class ExactFinish {
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ExactFinish&, TreeTotals& totals)
         : normal_(chord_plane_normal(patch)),
           reach_(hull_of(patch.points)),
-          patch_(PatchNode<S>::make(std::move(patch), Place{{}, level})),
+          patch_(PatchNode<S>::make(std::move(patch), Place{{}, level, reach_.rounding()})),
           box_(patch_->is_polynomial() || patch_->is_leaf() ? SceneBox(patch_->bound(), space)
                                                             : Parts<S>::of(*patch_, parts_, space, totals).bound()) {}
     ~StartPatch() { delete parts_.load(); }

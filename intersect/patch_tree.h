@@ -18,13 +18,15 @@
 
 namespace shaolin {
 
-/// Where a patch lies in its tree: which part of the root's domain it is, and the root's level.
+/// Where a patch lies in its tree: which part of the root's domain it is, and what it has from the root.
 struct Place {
   SubDomain domain;
   int root_level = 0;
+  double rounding =
+      0;  ///< Box::rounding() of the root's points: a small piece carries the errors of what it was made of
 
   int level() const { return root_level + domain.depth(); }
-  Place part(const SubDomain& part) const { return {domain(part), root_level}; }
+  Place part(const SubDomain& part) const { return {domain(part), root_level, rounding}; }
 };
 
 /// A patch that is kept: a PolynomialPatch or an IrregularPatch.
@@ -76,7 +78,7 @@ class PolynomialPatch final : public PatchNode<S> {
   const Net& net() const { return net_; }
   Polynomial polynomial() const { return net_.bezier<Polynomial>(); }
   int halvings() const { return halvings_; }
-  Box bound() const override { return hull_of(net_).with_rounding(); }
+  Box bound() const override { return hull_of(net_).grown(this->place().rounding); }
   std::uint64_t bytes() const override { return sizeof *this; }
 
  private:
@@ -95,7 +97,7 @@ class IrregularPatch final : public PatchNode<S> {
   IrregularPatch(Patch<S> patch, const Place& place);
 
   const Patch<S>& patch() const { return patch_; }
-  Box bound() const override { return limit_bound(patch_).with_rounding(); }
+  Box bound() const override { return limit_bound(patch_).grown(this->place().rounding); }
   std::uint64_t bytes() const override { return sizeof *this + patch_.points.capacity() * sizeof(Vec3); }
 
  private:
@@ -306,7 +308,7 @@ void Parts<S>::cut(const Polynomial& piece, int number, const PolynomialPatch<S>
       cut(part, at, of, halvings, room, space);
       continue;
     }
-    const Box box = hull_of(Net(part)).with_rounding();
+    const Box box = hull_of(Net(part)).grown(of.place().rounding);
     if (leaf)
       add(of, static_cast<std::int8_t>(at), box, space);
     else

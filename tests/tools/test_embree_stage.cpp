@@ -9,6 +9,30 @@
 
 namespace shaolin::test {
 
+namespace {
+
+struct Comparison {
+  int hits = 0, differ = 0;  ///< rays that both hit; rays whose answers differ (at outlines and contacts by a sheet)
+};
+
+/// Random rays at both; distances may differ by so many diagonals, normals by so much.
+Comparison compare(const Scene& ours, const EmbreeStage& theirs, double distance, double normal) {
+  const double diagonal = (ours.bounds().upper - ours.bounds().lower).norm();
+  Comparison result;
+  for (const Ray& ray : random_rays(ours.bounds(), 3000, 5)) {
+    const auto a = ours.intersect(ray);
+    const auto b = theirs.intersect(ray);
+    result.differ += a.has_value() != b.has_value() || theirs.occluded(ray) != b.has_value();
+    if (!a || !b) continue;
+    ++result.hits;
+    result.differ += std::abs(a->t - b->t) * ray.direction.norm() > distance * diagonal ||
+                     (a->sample.normal - b->normal).norm() > normal;
+  }
+  return result;
+}
+
+}  // namespace
+
 // Groups, a mirrored and an uneven transform, both kinds of faces.
 TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench]") {
   const int level = GENERATE(1, 4);
@@ -19,18 +43,7 @@ TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench
   Stage copy = stage;
   const Scene ours = build_scene(copy, options);
   const EmbreeStage theirs(stage, level);
-  const double diagonal = (ours.bounds().upper - ours.bounds().lower).norm();
-  int hits = 0, differ = 0;
-  for (const Ray& ray : random_rays(ours.bounds(), 3000, 5)) {
-    const auto a = ours.intersect(ray);
-    const auto b = theirs.intersect(ray);
-    differ += a.has_value() != b.has_value() || theirs.occluded(ray) != b.has_value();
-    if (!a || !b) continue;
-    ++hits;
-    // Single precision, and at outlines and contacts another sheet.
-    differ +=
-        std::abs(a->t - b->t) * ray.direction.norm() > 1e-5 * diagonal || (a->sample.normal - b->normal).norm() > 2e-3;
-  }
+  const auto [hits, differ] = compare(ours, theirs, 1e-5, 2e-3);  // single precision
   CHECK(hits > 1000);
   CHECK(differ <= hits / 200);
   CHECK(theirs.bytes() > 0);
@@ -41,19 +54,7 @@ TEST_CASE("Embree's subdivision of a scene comes near to the limit", "[tools][be
   Stage copy = stage;
   const Scene ours = build_scene(copy);
   const EmbreeStage theirs(stage, 5, EmbreeSurface::subdivision);
-  const double diagonal = (ours.bounds().upper - ours.bounds().lower).norm();
-  int hits = 0, differ = 0;
-  for (const Ray& ray : random_rays(ours.bounds(), 3000, 5)) {
-    const auto a = ours.intersect(ray);
-    const auto b = theirs.intersect(ray);
-    differ += a.has_value() != b.has_value() || theirs.occluded(ray) != b.has_value();
-    if (!a || !b) continue;
-    ++hits;
-    // Facets whose edges are 1/32 of a face's; sides are those of the faces' order.
-    differ +=
-        std::abs(a->t - b->t) * ray.direction.norm() > 1e-3 * diagonal || (a->sample.normal - b->normal).norm() > 0.2;
-  }
-  CAPTURE(hits, differ);
+  const auto [hits, differ] = compare(ours, theirs, 1e-3, 0.2);  // facets with edges of 1/32 of a face's
   CHECK(hits > 1000);
   CHECK(differ <= hits / 50);
   CHECK(theirs.bytes() > 0);
