@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "../schemes/errors.h"
@@ -106,10 +107,10 @@ class IrregularPatch final : public PatchNode<S> {
   Patch<S> patch_;
 };
 
-/// What a patch that is no leaf consists of, with the boxes side by side. Those of a polynomial are its pieces. An
-/// irregular patch is split into patches, or into strips beside a crease, and polynomials among them go on into their
-/// pieces. So a ray tests up to sixteen boxes at once, and a flat piece needs no memory but its box: its points are
-/// made anew for each ray that meets it.
+/// What a patch that is no leaf consists of, with the boxes side by side. Of its parts the largest that is no leaf is
+/// taken apart, too, as long as there is room: an irregular patch into patches, or into strips beside a crease, a
+/// polynomial into its pieces. So a ray tests up to sixteen boxes at once, and a flat piece needs no memory but its
+/// box: its points are made anew for each ray that meets it.
 ///
 /// How a patch is split depends on the patch alone, so the tree that rays grow is the same in whatever order they come.
 template <Scheme S>
@@ -151,12 +152,23 @@ class Parts {
  private:
   static constexpr std::size_t most = 16;
 
-  void add(const PatchNode<S>& patch, std::int8_t piece, const Box& box, const BoxSpace& space);
+  /// A part that may still be taken apart: a patch, or a piece of a polynomial one.
+  struct Part {
+    const PatchNode<S>* patch;
+    Box box;
+    bool is_leaf;
+    int number = 0;              ///< of the piece, see pieces.h
+    Polynomial polynomial = {};  ///< the piece
+    int halvings = 0;            ///< that led to it
+  };
+
+  static Part whole(const PatchNode<S>& patch);
+  /// How many parts would take this one's place; 0 if it is to stay.
+  static std::size_t count_apart(const Part& part, int deepest);
+  /// Takes a part that is no leaf apart: appends its own parts.
+  void take_apart(const Part& part, std::vector<Part>& parts);
+  void add(const Part& part, const BoxSpace& space);
   const PatchNode<S>& keep(std::unique_ptr<const PatchNode<S>> patch);
-  /// The patch as it is or, of a polynomial that is no leaf, its pieces, as many as there is room for.
-  void add_patch(const PatchNode<S>& patch, std::size_t room, const BoxSpace& space);
-  void cut(const Polynomial& piece, int number, const PolynomialPatch<S>& of, int halvings, std::size_t room,
-           const BoxSpace& space);
 
   Eight first_;
   std::unique_ptr<Eight> second_;
@@ -206,26 +218,29 @@ bool IrregularPatch<S>::is_leaf(const Patch<S>& patch, const Place& place) {
 
 template <Scheme S>
 Parts<S>::Parts(const PatchNode<S>& patch, const BoxSpace& space) {
-  if (patch.is_polynomial()) {
-    const auto& whole = static_cast<const PolynomialPatch<S>&>(patch);
-    cut(whole.polynomial(), 0, whole, whole.halvings(), most, space);
-  } else {
-    ++splits_;
-    const Patch<S>& irregular = static_cast<const IrregularPatch<S>&>(patch).patch();
-    if constexpr (S::face_kind == FaceKind::quad) {
-      if (const auto& strips = irregular.configuration->crease_strips())
-        for (const auto& [domain, polynomial] : strips->strips(irregular.points.data()))
-          keep(std::make_unique<PolynomialPatch<S>>(polynomial, patch.place().part(domain)));
+  // A patch with one irregular corner has 13 parts three levels down. What is deeper fewer rays meet.
+  constexpr int levels_at_once = 3;
+  const int deepest = patch.place().level() + levels_at_once;
+  std::vector<Part> parts;
+  parts.reserve(most);
+  take_apart(whole(patch), parts);
+  for (;;) {
+    double largest = -1;
+    std::size_t open = parts.size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::size_t count = count_apart(parts[i], deepest);
+      if (count == 0 || parts.size() - 1 + count > most || parts[i].box.half_area() <= largest) continue;
+      largest = parts[i].box.half_area();
+      open = i;
     }
-    if (patches_.empty()) {
-      std::vector<Patch<S>> children = irregular.children();
-      for (std::size_t k = 0; k < children.size(); ++k)
-        keep(PatchNode<S>::make(std::move(children[k]),
-                                patch.place().part(child_domain<S::face_kind>(static_cast<int>(k)))));
-    }
-    const std::size_t count = patches_.size();
-    for (std::size_t i = 0; i < count; ++i) add_patch(*patches_[i], most / count, space);
+    if (open == parts.size()) break;
+    const Part part = std::exchange(parts[open], parts.back());
+    parts.pop_back();
+    take_apart(part, parts);
+    if (!part.patch->is_polynomial())
+      std::erase_if(patches_, [&](const auto& kept) { return kept.get() == part.patch; });
   }
+  for (const Part& part : parts) add(part, space);
   patches_.shrink_to_fit();
 }
 
@@ -262,59 +277,84 @@ std::uint64_t Parts<S>::bytes() const {
 }
 
 template <Scheme S>
-void Parts<S>::add(const PatchNode<S>& patch, std::int8_t piece, const Box& box, const BoxSpace& space) {
+auto Parts<S>::whole(const PatchNode<S>& patch) -> Part {
+  Part part{&patch, patch.bound(), patch.is_leaf()};
+  if (patch.is_polynomial() && !part.is_leaf) {
+    part.polynomial = static_cast<const PolynomialPatch<S>&>(patch).polynomial();
+    part.halvings = static_cast<const PolynomialPatch<S>&>(patch).halvings();
+  }
+  return part;
+}
+
+template <Scheme S>
+std::size_t Parts<S>::count_apart(const Part& part, int deepest) {
+  using Cuts = Pieces<Polynomial>;
+  if (part.is_leaf) return 0;
+  if (part.patch->is_polynomial()) return Cuts::can_cut(part.polynomial, part.number) ? Cuts::parts : 0;
+  if (part.patch->place().level() >= deepest) return 0;
+  const Configuration<S>& configuration = *static_cast<const IrregularPatch<S>&>(*part.patch).patch().configuration;
+  if (basis_of(configuration.scheme()) == Basis::none) return 0;  // the tree ends three levels down in any case
+  if constexpr (S::face_kind == FaceKind::quad)
+    if (const auto& strips = configuration.crease_strips()) return strips->count();
+  return static_cast<std::size_t>(configuration.child_count());
+}
+
+template <Scheme S>
+void Parts<S>::take_apart(const Part& part, std::vector<Part>& parts) {
+  using Cuts = Pieces<Polynomial>;
+  ++splits_;
+  const Place& place = part.patch->place();
+  if (part.patch->is_polynomial()) {
+    const auto cut = Cuts::cut(part.polynomial, part.number);
+    const int halvings = part.halvings + static_cast<int>(Cuts::parts) / 2;
+    for (std::size_t k = 0; k < Cuts::parts; ++k) {
+      const Polynomial& piece = cut.parts[k];
+      parts.push_back({part.patch, hull_of(Net(piece)).grown(place.rounding),
+                       PolynomialPatch<S>::is_leaf(piece, halvings), cut.numbers[k], piece, halvings});
+    }
+    return;
+  }
+  const Patch<S>& irregular = static_cast<const IrregularPatch<S>&>(*part.patch).patch();
+  if constexpr (S::face_kind == FaceKind::quad) {
+    if (const auto& strips = irregular.configuration->crease_strips()) {
+      for (const auto& [domain, polynomial] : strips->strips(irregular.points.data()))
+        parts.push_back(whole(keep(std::make_unique<PolynomialPatch<S>>(polynomial, place.part(domain)))));
+      return;
+    }
+  }
+  std::vector<Patch<S>> children = irregular.children();
+  for (std::size_t k = 0; k < children.size(); ++k) {
+    const Place child = place.part(child_domain<S::face_kind>(static_cast<int>(k)));
+    parts.push_back(whole(keep(PatchNode<S>::make(std::move(children[k]), child))));
+  }
+}
+
+template <Scheme S>
+void Parts<S>::add(const Part& part, const BoxSpace& space) {
   const std::size_t i = count_++;
   assert(i < most);
   if (i == 8) second_ = std::make_unique<Eight>();
   Eight& eight = i < 8 ? first_ : *second_;
-  eight.boxes.set(i % 8, {box, space});
-  eight.patch[i % 8] = &patch;
-  eight.piece[i % 8] = piece;
+  eight.boxes.set(i % 8, {part.box, space});
+  eight.patch[i % 8] = part.patch;
+  if (part.is_leaf) {
+    eight.piece[i % 8] = static_cast<std::int8_t>(part.number);
+    return;
+  }
+  const Place& place = part.patch->place();
+  if (part.number != 0)
+    eight.patch[i % 8] = &keep(std::make_unique<PolynomialPatch<S>>(
+        part.polynomial, place.part(Pieces<Polynomial>::domain(part.number)), part.halvings));
+  // From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked there
+  // must not depend on whether its parts are known already.
+  constexpr int tiny_level = 24;
+  eight.piece[i % 8] = !part.patch->is_polynomial() && place.level() >= tiny_level ? tiny : inner;
 }
 
 template <Scheme S>
 const PatchNode<S>& Parts<S>::keep(std::unique_ptr<const PatchNode<S>> patch) {
   patches_.push_back(std::move(patch));
   return *patches_.back();
-}
-
-template <Scheme S>
-void Parts<S>::add_patch(const PatchNode<S>& patch, std::size_t room, const BoxSpace& space) {
-  if (patch.is_polynomial() && !patch.is_leaf() && room >= Pieces<Polynomial>::parts) {
-    const auto& whole = static_cast<const PolynomialPatch<S>&>(patch);
-    cut(whole.polynomial(), 0, whole, whole.halvings(), room, space);
-  } else {
-    // From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked
-    // there must not depend on whether its parts are known already.
-    constexpr int tiny_level = 24;
-    const bool is_tiny = !patch.is_polynomial() && patch.place().level() >= tiny_level;
-    add(patch, patch.is_leaf() ? std::int8_t{0} : is_tiny ? tiny : inner, patch.bound(), space);
-  }
-}
-
-template <Scheme S>
-void Parts<S>::cut(const Polynomial& piece, int number, const PolynomialPatch<S>& of, int halvings, std::size_t room,
-                   const BoxSpace& space) {
-  using Cuts = Pieces<Polynomial>;
-  ++splits_;
-  const auto made = Cuts::cut(piece, number);
-  halvings += static_cast<int>(Cuts::parts) / 2;
-  room /= Cuts::parts;
-  for (std::size_t k = 0; k < Cuts::parts; ++k) {
-    const Polynomial& part = made.parts[k];
-    const int at = made.numbers[k];
-    const bool leaf = PolynomialPatch<S>::is_leaf(part, halvings);
-    if (!leaf && room >= Cuts::parts && Cuts::can_cut(part, at)) {
-      cut(part, at, of, halvings, room, space);
-      continue;
-    }
-    const Box box = hull_of(Net(part)).grown(of.place().rounding);
-    if (leaf)
-      add(of, static_cast<std::int8_t>(at), box, space);
-    else
-      add(keep(std::make_unique<PolynomialPatch<S>>(part, of.place().part(Cuts::domain(at)), halvings)), inner, box,
-          space);
-  }
 }
 
 }  // namespace shaolin

@@ -25,6 +25,9 @@ class CreaseStrips {
     BezierQuad polynomial;
   };
 
+  /// How many there are: ceil(s) + 1.
+  std::size_t count() const { return across_.size(); }
+
   /// The strips of a patch with these control points, nearest to the crease last. O(s).
   std::vector<Strip> strips(const Vec3* points) const;
 
