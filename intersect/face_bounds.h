@@ -1,10 +1,12 @@
 #pragma once
 /// Boxes for faces that nobody has refined yet, half as wide as their control neighbourhoods.
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "../schemes/subdivision_mesh.h"
 #include "limit_bounds.h"
+#include "regular_bounds.h"
 
 namespace shaolin {
 
@@ -75,13 +77,14 @@ template <Scheme S>
 std::vector<Box> split_face_bounds(const SubdivisionMesh<S>& mesh) {
   std::vector<Box> result;
   for (const int f : mesh.faces())
-    result.push_back(mesh.has_limit(f) ? split_limit_bound(mesh.patch({f, 0}), 2) : Box());
+    result.push_back(mesh.has_limit(f) ? split_limit_bound(mesh.patch({f, 0}), 2).with_rounding() : Box());
   return result;
 }
 
 }  // namespace detail
 
-/// For every face a box that holds its limit: of the boxes of its corners, expanded where refinement may leave the hull
+/// For every face a box that holds its limit, with room for rounding: the hull of its Bezier points if it is regular;
+/// else of the boxes of its corners, expanded where refinement may leave the hull
 /// (under Chaikin's rule, see hull_expansion.h; there the boxes hold the control points too). O(size), without refining
 /// anything, for masks that are convex combinations; else every face is split twice.
 template <Scheme S>
@@ -96,15 +99,21 @@ std::vector<Box> face_bounds(const SubdivisionMesh<S>& mesh) {
       if (is_semi_sharp(edge.sharpness)) known = std::max(known, edge.sharpness);
     }
   }
+  std::optional<RegularBounds<S>> regular;
+  if (basis_of(mesh.rules().scheme) == Basis::spline) regular.emplace(mesh);
   std::vector<Box> result;
   for (const int f : mesh.faces()) {
+    if (regular && regular->is_regular(f)) {
+      result.push_back((*regular)(f));
+      continue;
+    }
     Box box;
     float sharpness = 0;
     for (const int v : mesh.face(f)) {
       box.add(corners[static_cast<std::size_t>(v)]);
       sharpness = std::max(sharpness, sharpest[static_cast<std::size_t>(v)]);
     }
-    result.push_back(box.expanded(hull_expansion(mesh.rules(), sharpness)));
+    result.push_back(box.expanded(hull_expansion(mesh.rules(), sharpness)).with_rounding());
   }
   return result;
 }

@@ -102,7 +102,7 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
   std::vector<Box> boxes;
   for (const int f : mesh.faces()) {
     if (!mesh.has_limit(f)) continue;
-    const Box box = bounds[static_cast<std::size_t>(f)].with_rounding();
+    const Box& box = bounds[static_cast<std::size_t>(f)];
     if (!box.lower.allFinite() || !box.upper.allFinite())
       throw InputError("nothing bounds the surface of face " + std::to_string(f) +
                        ": its coordinates are too large, or the masks of the scheme do not sum to one or not "
