@@ -26,20 +26,22 @@ class ExactFinish {
   /// The patch of a face, or of an n-gon's corner, its own box, which is tighter than the face's in the hierarchy, and
   /// the normal of its plane TP. The neighbourhood of an irregular face is much larger than its patch, so its box is
   /// that of its parts.
-  class StartPatch {
+  class alignas(64) StartPatch {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ExactFinish&, TreeTotals& totals)
-        : normal_(chord_plane_normal(patch)),
-          reach_(hull_of(patch.points)),
-          patch_(PatchNode<S>::make(std::move(patch), Place{{}, level, reach_.rounding()})),
-          box_(patch_->is_polynomial() || patch_->is_leaf() ? SceneBox(patch_->bound(), space)
-                                                            : Parts<S>::of(*patch_, parts_, space, totals).bound()) {}
+        : normal_(chord_plane_normal(patch)), reach_(hull_of(patch.points)) {
+      patch_ = PatchNode<S>::make(std::move(patch), Place{{}, level, reach_.rounding()});
+      is_leaf_ = patch_->is_leaf();
+      box_ = is_leaf_ || patch_->is_polynomial() ? SceneBox(patch_->bound(), space)
+                                                 : Parts<S>::of(*patch_, parts_, space, totals).bound();
+    }
     ~StartPatch() { delete parts_.load(); }
     StartPatch(const StartPatch&) = delete;
     StartPatch& operator=(const StartPatch&) = delete;
 
     const SceneBox& box() const { return box_; }
     const PatchNode<S>& patch() const { return *patch_; }
+    bool is_leaf() const { return is_leaf_; }
     typename Parts<S>::Slot& parts() const { return parts_; }
     const Vec3& normal() const { return normal_; }
     /// A box of the control points.
@@ -47,11 +49,13 @@ class ExactFinish {
     std::uint64_t bytes() const { return patch_->bytes(); }
 
    private:
+    // What every ray reads that reaches the patch comes first, in one cache line.
+    SceneBox box_;
+    bool is_leaf_ = false;
+    mutable typename Parts<S>::Slot parts_{nullptr};
+    std::unique_ptr<const PatchNode<S>> patch_;
     Vec3 normal_;
     Box reach_;
-    std::unique_ptr<const PatchNode<S>> patch_;
-    mutable typename Parts<S>::Slot parts_{nullptr};
-    SceneBox box_;
   };
 
   /// A place in a patch's parameters, met at a distance along the ray, and the level of the piece that met it.
@@ -65,7 +69,7 @@ class ExactFinish {
   template <Query query>
   std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
     Search search(start, approach, totals);
-    if (start.patch().is_leaf())
+    if (start.is_leaf())
       search.finish(start.patch(), 0);
     else
       search.template descend<query>(start.patch(), start.parts());
