@@ -5,8 +5,8 @@
 
 namespace shaolin {
 
-/// What a query looks for: the closest hit, or any.
-enum class Query { closest, any };
+/// What a query looks for: the closest hit, any, or all.
+enum class Query { closest, any, all };
 
 /// A ray, how far it looks, and where its work is counted.
 class Approach {

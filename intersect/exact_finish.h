@@ -64,16 +64,24 @@ class ExactFinish {
     Parameter at;
     int level;
     double distance;
+    double reach = 0;        ///< see PatchHit
+    bool is_proven = false;  ///< see PatchHit
+    double error = 0;        ///< of coordinates in the ray's frame
   };
 
   template <Query query>
   std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
     Search search(start, approach, totals);
-    if (start.is_leaf())
-      search.finish(start.patch(), 0);
-    else
-      search.template descend<query>(start.patch(), start.parts());
+    search.template run<query>();
     return search.found;
+  }
+
+  /// Appends all hits. Those at edges of patches and pieces may be there more than once.
+  void search_all(const StartPatch& start, const Approach& approach, TreeTotals& totals,
+                  std::vector<Found>& found) const {
+    Search search(start, approach, totals);
+    search.all = &found;
+    search.template run<Query::all>();
   }
 
   Hit hit(const Found& found, int face, int sub, const SchemeSurface<S>& surface) const {
@@ -92,6 +100,14 @@ class ExactFinish {
     Search(const StartPatch& start, const Approach& approach, TreeTotals& totals)
         : start_(start), approach_(approach), totals_(totals) {}
 
+    template <Query query>
+    void run() {
+      if (start_.is_leaf())
+        finish(start_.patch(), 0);
+      else
+        descend<query>(start_.patch(), start_.parts());
+    }
+
     /// Through the parts of a patch.
     template <Query query>
     void descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny = false);
@@ -99,6 +115,7 @@ class ExactFinish {
     void finish(const PatchNode<S>& patch, int piece);
 
     std::optional<Found> found;
+    std::vector<Found>* all = nullptr;  ///< where hits go if all are asked for
 
    private:
     bool may_meet(const PatchNode<S>& patch, bool is_tiny);
@@ -120,10 +137,23 @@ class ExactFinish {
       return *frame_;
     }
 
-    /// The nearest hit so far, in the patch's parameters.
-    void take(const PatchNode<S>& patch, const Parameter& at, int level, double distance) {
-      found = Found{&patch, at, level, distance};
-      approach_.shorten(distance);
+    /// The nearest hit so far, in the patch's parameters, or one of all.
+    void take(const PatchNode<S>& patch, const PatchHit& hit, int level) {
+      const Found taken{&patch, hit.at, level, hit.distance, hit.reach, hit.is_proven, error_};
+      if (all) return all->push_back(taken);
+      found = taken;
+      approach_.shorten(hit.distance);
+    }
+    /// What a solver finds, the nearest or all.
+    template <class Solver, class Piece, class Take>
+    void solve(Solver&& solver, const Piece& piece, Take take_hit) {
+      if (!all) {
+        if (solver.solve(piece)) take_hit(solver.hit());
+        return;
+      }
+      std::vector<PatchHit> hits;
+      solver.solve(piece, hits);
+      for (const PatchHit& hit : hits) take_hit(hit);
     }
 
     const StartPatch& start_;
@@ -224,9 +254,11 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   if (!project(static_cast<const PolynomialPatch<S>&>(patch).net(), number, cell)) return;
   NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
                                   approach_.counters);
-  if (!solver.solve(cell)) return;
-  const SubDomain piece = Pieces<Polynomial>::domain(number);
-  take(patch, piece(solver.hit().at), patch.place().part(piece).level(), solver.hit().distance);
+  solve(solver, cell, [&](PatchHit hit) {
+    const SubDomain piece = Pieces<Polynomial>::domain(number);
+    hit.at = piece(hit.at);
+    take(patch, hit, patch.place().part(piece).level());
+  });
 }
 
 /// A piece of a net in the ray's coordinates; false if a test of the planes finds it to one side, before the others are
@@ -249,7 +281,7 @@ void ExactFinish<S>::Search::finish_by_refinement(const IrregularPatch<S>& patch
   Patch<S> projected = patch.patch();
   for (Vec3& point : projected.points) point = frame().project(point);
   RefiningFinish<S> solver(4 * error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(), approach_.counters);
-  if (solver.solve(projected)) take(patch, solver.hit().at, patch.place().level(), solver.hit().distance);
+  solve(solver, projected, [&](const PatchHit& hit) { take(patch, hit, patch.place().level()); });
 }
 
 /// The whole patch is one point to within rounding: the irregular corner's limit.
@@ -258,7 +290,7 @@ void ExactFinish<S>::Search::finish_as_point(const PatchNode<S>& patch, const Ve
   if (hull.upper.z() < approach_.ray.near - error_) return;
   const double distance = std::max(frame().project(point).z(), approach_.ray.near);
   if (distance > approach_.far() - (approach_.far_is_hit() ? error_ : 0)) return;
-  take(patch, D::centre(), patch.place().level(), distance);
+  take(patch, {D::centre(), distance, hull.upper.z() - hull.lower.z()}, patch.place().level());
 }
 
 }  // namespace shaolin

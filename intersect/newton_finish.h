@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "../schemes/bezier_quad.h"
 #include "../schemes/domain.h"
@@ -18,6 +19,8 @@ namespace shaolin {
 struct PatchHit {
   Parameter at;
   double distance = std::numeric_limits<double>::infinity();
+  double reach = 0;        ///< how far the piece of surface that it stands for goes along the ray
+  bool is_proven = false;  ///< to be the only one of its cell
 };
 
 /// Finds the nearest zero of (x, y) with z in [near, far] on a Bezier patch given in a ray's frame (x, y: distances
@@ -45,6 +48,12 @@ class NewtonFinish {
   }
   const PatchHit& hit() const { return best_; }
 
+  /// Appends all hits. Cells that meet at one may each report it, and of a curve of contact every part is one.
+  void solve(const Net& patch, std::vector<PatchHit>& hits) {
+    all_ = &hits;
+    solve(patch);
+  }
+
  private:
   using D = typename Bezier::DomainType;
   using Matrix = Eigen::Matrix2d;
@@ -56,6 +65,12 @@ class NewtonFinish {
   /// a hit must be nearer by twice as much to count, up to 16 times the error.
   static constexpr int patience = 512;
   static constexpr double smallest_out_of_patience = 0x1p-42;
+  /// Of all hits none ends the search for others. There the size at which a cell counts as a point grows by 2^6
+  /// whenever the number of cells has doubled, so that 2^15 cells end it in any case.
+  double smallest_now() const {
+    if (cells_ <= patience) return smallest;
+    return all_ ? std::ldexp(smallest_out_of_patience, 6 * std::ilogb(cells_ / patience)) : smallest_out_of_patience;
+  }
   /// Slopes against the ray count up to here: a steeper cell is looked into, though its distances are less certain. It
   /// may lie beside straight lines along the ray, whose near end is to be found.
   static constexpr double steepest = 1e4;
@@ -77,7 +92,8 @@ class NewtonFinish {
   bool is_no_nearer(const Net& cell) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
-  void accept(const Parameter& at, double distance, const Parameter& origin, const Parameter& scale);
+  /// Of a hit in a cell's parameters.
+  void accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale);
 
   double impatience() const { return std::exp2(std::min(4, cells_ / patience)); }
 
@@ -89,16 +105,19 @@ class NewtonFinish {
   bool has_hit_;  ///< best_.distance is that of a hit
   RayCounters& counters_;
   PatchHit best_;
+  std::vector<PatchHit>* all_ = nullptr;  ///< where hits go if all are asked for
   bool found_ = false;
   int cells_ = 0;
 };
 
 template <class Bezier>
-void NewtonFinish<Bezier>::accept(const Parameter& at, double distance, const Parameter& origin,
-                                  const Parameter& scale) {
+void NewtonFinish<Bezier>::accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale) {
   // A hit counts as within the interval if rounding alone could have moved it out.
-  if (distance < near_ - error_ || distance > horizon()) return;
-  best_ = {origin + scale.cwiseProduct(at), distance};
+  if (hit.distance < near_ - error_ || hit.distance > horizon()) return;
+  PatchHit own = hit;
+  own.at = origin + scale.cwiseProduct(hit.at);
+  if (all_) return all_->push_back(own);
+  best_ = own;
   found_ = has_hit_ = true;
 }
 
@@ -117,9 +136,9 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   // it would only trace the band's edge. (Along the ray it must be short, or it is a curve that runs along the ray.)
   const bool is_point = in_band(x, y) && z.high - z.low <= 16 * error_;
   const double size = scale.cwiseAbs().maxCoeff();
-  if (is_point || size <= smallest || (cells_ > patience && size <= smallest_out_of_patience)) {
+  if (is_point || size <= smallest_now()) {
     const double distance = dot(cell.z, centre_weights);
-    accept(D::centre(), std::max(distance, near_), origin, scale);
+    accept({D::centre(), std::max(distance, near_), z.high - z.low}, origin, scale);
     return;
   }
 
@@ -157,7 +176,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
     const Parameter start =
         D::nearest(D::centre() - Parameter(dot(flat_x, centre_weights), dot(flat_y, centre_weights)));
     const Verdict verdict = newton(cell, flattening, share, start, hit);
-    if (verdict == Verdict::found) accept(hit.at, hit.distance, origin, scale);
+    if (verdict == Verdict::found) accept(hit, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
   split(cell, origin, scale);
@@ -270,7 +289,7 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
       const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
       std::array<double, 4> at_z;
       evaluation(cell.z).store(at_z.data());
-      hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y()};
+      hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true};
       return Verdict::found;
     }
     const Parameter next = D::nearest(at + step);

@@ -3,11 +3,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../schemes/control_mesh.h"
 #include "box.h"
 #include "chord_options.h"
 #include "counters.h"
+#include "crossings.h"
 #include "ray.h"
 
 namespace shaolin {
@@ -45,6 +47,9 @@ class Object {
 
   /// The closest hit with tmin <= t <= tmax, or empty. A scene has checked the ray's numbers.
   virtual std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const = 0;
+
+  /// All hits with tmin <= t <= tmax, in ascending order, each once. Throws InputError where the method is not exact.
+  virtual std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const = 0;
 
   /// True if any point of the surface lies on the ray; as intersect(), cheaper.
   virtual bool occluded(const Ray& ray, RayCounters& counters) const = 0;

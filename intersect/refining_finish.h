@@ -31,6 +31,12 @@ class RefiningFinish {
   }
   const PatchHit& hit() const { return best_; }
 
+  /// As NewtonFinish.
+  void solve(const Patch<S>& projected, std::vector<PatchHit>& hits) {
+    all_ = &hits;
+    solve(projected);
+  }
+
  private:
   using D = Domain<S::face_kind>;
 
@@ -54,7 +60,7 @@ class RefiningFinish {
     return origin + Parameter::Constant(0.5 * scale) == origin;
   }
   static Parameter nearest_in_space(const Eigen::Matrix2d& jacobian, const Eigen::Vector2d& origin);
-  void accept(const Parameter& at, double distance, const Parameter& origin, double scale);
+  void accept(const PatchHit& hit, const Parameter& origin, double scale);
   double horizon() const {
     return best_.distance + (has_hit_ ? -std::exp2(std::min(4, cells_ / patience)) * error_ : error_);
   }
@@ -65,14 +71,17 @@ class RefiningFinish {
   bool has_hit_;
   RayCounters& counters_;
   PatchHit best_;
+  std::vector<PatchHit>* all_ = nullptr;
   bool found_ = false;
   int cells_ = 0;
 };
 
 template <Scheme S>
-void RefiningFinish<S>::accept(const Parameter& at, double distance, const Parameter& origin, double scale) {
-  if (distance < near_ - error_ || distance > horizon()) return;
-  best_ = {origin + scale * at, std::max(distance, near_)};
+void RefiningFinish<S>::accept(const PatchHit& hit, const Parameter& origin, double scale) {
+  if (hit.distance < near_ - error_ || hit.distance > horizon()) return;
+  const PatchHit own{origin + scale * hit.at, std::max(hit.distance, near_), hit.reach, hit.is_proven};
+  if (all_) return all_->push_back(own);
+  best_ = own;
   found_ = has_hit_ = true;
 }
 
@@ -100,9 +109,10 @@ void RefiningFinish<S>::visit(const Patch<S>& cell, const Parameter& origin, dou
   ++cells_;
   const Box bound = limit_bound(cell);
   if (is_outside(bound)) return;
-  const bool is_grain = cells_ > patience && (bound.upper - bound.lower).maxCoeff() <= grain_;
+  const double grain = all_ ? std::ldexp(grain_, 6 * std::ilogb(std::max(1, cells_ / patience))) : grain_;
+  const bool is_grain = cells_ > patience && (bound.upper - bound.lower).maxCoeff() <= grain;
   if (is_point(bound) || is_grain || is_one_parameter(origin, scale))
-    return accept(D::centre(), cell.points.front().z(), origin, scale);
+    return accept({D::centre(), cell.points.front().z(), bound.upper.z() - bound.lower.z()}, origin, scale);
 
   // Parameters at which the flat part may lie on the ray; all, if it stands edge-on to the ray.
   Parameter low(0, 0), high(1, 1);
@@ -124,7 +134,7 @@ void RefiningFinish<S>::visit(const Patch<S>& cell, const Parameter& origin, dou
         // A point of the ray's band may be as far off as the remainder on top; beyond, the ray passes the cell by.
         if ((jacobian * at + middle).cwiseAbs().maxCoeff() > 2 * error_) return;
         const double distance = part->at(at).z() + 0.5 * (rest.lower.z() + rest.upper.z());
-        return accept(at, distance, origin, scale);
+        return accept({at, distance, 0, true}, origin, scale);
       }
     }
   }

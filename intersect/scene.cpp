@@ -4,7 +4,9 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
+#include <tuple>
 #include <unordered_set>
 
 #include "../schemes/errors.h"
@@ -26,6 +28,10 @@ void check(const Ray& ray) {
   if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
 }
 
+bool is_hit(const std::optional<Hit>& answer) { return answer.has_value(); }
+bool is_hit(const std::vector<Crossing>& answer) { return !answer.empty(); }
+bool is_hit(std::size_t answer) { return answer != 0; }
+
 }  // namespace
 
 class Scene::Implementation {
@@ -40,7 +46,7 @@ class Scene::Implementation {
     Statistics& local = own_counters();
     local += counters;
     ++local.rays;
-    local.hits += static_cast<bool>(answer);
+    local.hits += is_hit(answer);
     return answer;
   }
 
@@ -71,6 +77,14 @@ class Scene::Implementation {
   bool occluded(const Ray& ray, RayCounters& counters) const {
     return sole_ ? sole_->occluded(ray, counters) : occluded_by_instances(ray, counters);
   }
+  std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const {
+    return sole_ ? sole_->all_hits(ray, counters) : all_hits_of_instances(ray, counters);
+  }
+  std::size_t count(const Ray& ray, RayCounters& counters) const {
+    const std::vector<Crossing> all = all_hits(ray, counters);
+    const auto crosses = [](const Crossing& crossing) { return crossing.sense != Sense::touches; };
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), crosses));
+  }
   Statistics statistics() const;
   const Box& bounds() const { return bounds_; }
   const std::vector<Instance>& instances() const { return instances_; }
@@ -78,6 +92,7 @@ class Scene::Implementation {
  private:
   std::optional<Hit> intersect_instances(const Ray& ray, RayCounters& counters) const;
   bool occluded_by_instances(const Ray& ray, RayCounters& counters) const;
+  std::vector<Crossing> all_hits_of_instances(const Ray& ray, RayCounters& counters) const;
 
   /// This thread's counters. A thread asks one scene many times in a row, so it remembers its last answer: looking them
   /// up is a twentieth of a ray that misses.
@@ -196,6 +211,31 @@ bool Scene::Implementation::occluded_by_instances(const Ray& ray, RayCounters& c
   return met;
 }
 
+std::vector<Crossing> Scene::Implementation::all_hits_of_instances(const Ray& ray, RayCounters& counters) const {
+  const TraversalRay traversal(ray);
+  const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
+  if (!box_ray) return {};
+  std::vector<Crossing> all;
+  const float box_far = box_ray->local(traversal.far);
+  bvh_.traverse(
+      *box_ray, [&] { return box_far; },
+      [&](int primitive) {
+        const Leaf& leaf = leaves_[static_cast<std::size_t>(primitive)];
+        const std::optional<Ray> local = leaf.placement.to_object(ray);
+        if (!local) return false;
+        for (Crossing& crossing : leaf.object->all_hits(*local, counters)) {
+          crossing.hit.instance = leaf.instance;
+          leaf.placement.to_world(crossing.hit.sample);
+          all.push_back(std::move(crossing));
+        }
+        return false;
+      });
+  std::stable_sort(all.begin(), all.end(), [](const Crossing& a, const Crossing& b) {
+    return std::tie(a.hit.t, a.hit.instance) < std::tie(b.hit.t, b.hit.instance);
+  });
+  return all;
+}
+
 Statistics Scene::Implementation::statistics() const {
   Statistics total;
   for (const Statistics& local : counters_) {
@@ -227,6 +267,16 @@ std::vector<std::optional<Hit>> Scene::intersect(std::span<const Ray> rays) cons
 }
 std::vector<char> Scene::occluded(std::span<const Ray> rays) const {
   return implementation_->counted<char>(rays, &Implementation::occluded);
+}
+std::vector<Crossing> Scene::all_hits(const Ray& ray) const {
+  return implementation_->counted(ray, &Implementation::all_hits);
+}
+std::size_t Scene::count(const Ray& ray) const { return implementation_->counted(ray, &Implementation::count); }
+std::vector<std::vector<Crossing>> Scene::all_hits(std::span<const Ray> rays) const {
+  return implementation_->counted<std::vector<Crossing>>(rays, &Implementation::all_hits);
+}
+std::vector<std::size_t> Scene::count(std::span<const Ray> rays) const {
+  return implementation_->counted<std::size_t>(rays, &Implementation::count);
 }
 const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }

@@ -43,12 +43,24 @@ class Scene {
   /// True if any point of a surface lies on the ray. Throws as intersect() does; cheaper.
   bool occluded(const Ray& ray) const;
 
+  /// All hits with tmin <= t <= tmax in ascending order of t, then of the instance: each crossing of a surface once,
+  /// at edges, vertices and creases, too, and where the ray touches without crossing. On a closed surface those that
+  /// are crossings alternate between entering and leaving. Throws as intersect() does, and InputError if an object's
+  /// method is not exact.
+  std::vector<Crossing> all_hits(const Ray& ray) const;
+
+  /// The number of hits that are crossings, not touches: even for a ray without limits and a closed surface, odd from
+  /// inside of it. Throws as all_hits() does.
+  std::size_t count(const Ray& ray) const;
+
   /// Many rays, coherent or not, on as many threads as oneTBB gives: answer i is that to rays[i] alone, bit for bit.
   /// They are traced in an order in which rays follow each other that are likely to meet the same patches. Throw
   /// InputError that names the first ray that intersect() refuses, before any is traced. O(n log n) in addition.
   std::vector<std::optional<Hit>> intersect(std::span<const Ray> rays) const;
   /// The same; 1 where any point of a surface lies on the ray. (Of char, for std::vector<bool> shares bytes.)
   std::vector<char> occluded(std::span<const Ray> rays) const;
+  std::vector<std::vector<Crossing>> all_hits(std::span<const Ray> rays) const;
+  std::vector<std::size_t> count(std::span<const Ray> rays) const;
 
   const std::vector<Instance>& instances() const;
 

@@ -27,6 +27,12 @@ class SchemeObject final : public Object {
     return intersector_.intersect(ray, counters);
   }
   bool occluded(const Ray& ray, RayCounters& counters) const override { return intersector_.occluded(ray, counters); }
+  std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const override {
+    if constexpr (requires { intersector_.all_hits(ray, counters); })
+      return intersector_.all_hits(ray, counters);
+    else
+      throw InputError("all hits are those of the limit surface; expected an object of Method::exact");
+  }
 
  private:
   SchemeSurface<S> surface_;

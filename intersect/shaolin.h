@@ -11,6 +11,7 @@
 #include "../schemes/scheme_surface.h"
 #include "approach.h"
 #include "bvh.h"
+#include "crossings.h"
 #include "face_bounds.h"
 #include "tree_totals.h"
 
@@ -48,6 +49,12 @@ class ShaoLin {
 
   /// True if there is a hit in [tmin, tmax].
   bool occluded(const Ray& ray, RayCounters& counters) const;
+
+  /// All hits with t in [tmin, tmax], see crossings.h. Of a finish that finds the limit surface itself.
+  std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const requires
+      requires(const Finish<S>& finish) {
+    &Finish<S>::search_all;
+  };
 
   /// A box that holds the surface.
   const Box& bounds() const { return bvh_.bounds(); }
@@ -156,6 +163,37 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
 template <Scheme S, template <class> class Finish>
 bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
   return search<Query::any>(ray, TraversalRay(ray), counters).has_value();
+}
+
+template <Scheme S, template <class> class Finish>
+std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray, RayCounters& counters) const requires
+    requires(const Finish<S>& finish) {
+  &Finish<S>::search_all;
+}
+{
+  const TraversalRay traversal(ray);
+  const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
+  if (!box_ray) return {};
+  std::vector<Contact> contacts;
+  std::vector<Found> found;
+  const Approach approach(traversal, *box_ray, ray.footprint, bvh_.space(), counters);
+  bvh_.traverse(
+      *box_ray, [&] { return approach.box_far(); },
+      [&](int primitive) {
+        const StartPatch& start = start_patch(primitive);
+        if (!box_ray->meets(start.box(), approach.box_far())) return false;
+        const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+        found.clear();
+        finish_.search_all(start, approach, totals_, found);
+        for (const Found& one : found) {
+          Hit hit = finish_.hit(one, face, sub, surface_);
+          hit.t = std::clamp(traversal.t(one.distance), ray.tmin, ray.tmax);
+          const double cosine = std::abs(hit.sample.normal.dot(traversal.direction));
+          contacts.push_back({hit, one.distance, contact_uncertainty(one.error, one.reach, cosine), one.is_proven});
+        }
+        return false;
+      });
+  return crossings(std::move(contacts), surface_.control_mesh(), traversal.direction);
 }
 
 template <Scheme S, template <class> class Finish>

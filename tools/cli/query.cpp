@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view ray_columns = "ox,oy,oz,dx,dy,dz,tmin,tmax";
 constexpr std::string_view hit_columns = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz";
-constexpr std::string_view scene_hit_columns = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,instance";
+using Answer = QueryOptions::Answer;
 
 CsvTable read_rays(const std::filesystem::path& file) {
   CsvTable table = read_csv(file, {6, 8});
@@ -36,56 +36,91 @@ Ray to_ray(std::span<const double> row) {
   return ray;
 }
 
+std::string columns(Answer answer, bool instances) {
+  if (answer == Answer::count) return "ray,count";
+  std::string all(hit_columns);
+  if (answer == Answer::all) all += ",sense";
+  if (instances) all += ",instance";
+  return all;
+}
+
 /// Answers as rows; those of a scene file have one column more.
 class HitWriter {
  public:
-  HitWriter(const std::filesystem::path& file, bool instances)
-      : writer_(file, instances ? scene_hit_columns : hit_columns), instances_(instances) {}
+  HitWriter(const std::filesystem::path& file, Answer answer, bool instances)
+      : writer_(file, columns(answer, instances)), senses_(answer == Answer::all), instances_(instances) {}
 
   /// A row of which only the first two fields are known.
   void write(std::size_t ray, bool hit) {
-    writer_.field(static_cast<long long>(ray)).field(hit ? 1 : 0).empty(instances_ ? 12 : 11).end_row();
+    writer_.field(static_cast<long long>(ray)).field(hit ? 1 : 0).empty(11 + senses_ + instances_).end_row();
   }
 
   void write(std::size_t ray, const std::optional<Hit>& hit) {
     if (!hit) return write(ray, false);
-    writer_.field(static_cast<long long>(ray)).field(1);
-    writer_.field(hit->t).field(hit->at.face).field(hit->at.sub).field(hit->at.u).field(hit->at.v);
-    write_vector(writer_, hit->sample.position);
-    write_normal(writer_, hit->sample.normal);
-    if (instances_) writer_.field(hit->instance);
-    writer_.end_row();
+    begin_row(ray, 1, *hit);
+    end_row(*hit);
+  }
+
+  /// A row for each, numbered from 1.
+  void write(std::size_t ray, const std::vector<Crossing>& all) {
+    if (all.empty()) return write(ray, false);
+    int number = 0;
+    for (const Crossing& crossing : all) {
+      begin_row(ray, ++number, crossing.hit);
+      writer_.field(static_cast<int>(crossing.sense));
+      end_row(crossing.hit);
+    }
+  }
+
+  void write(std::size_t ray, std::size_t count) {
+    writer_.field(static_cast<long long>(ray)).field(static_cast<long long>(count)).end_row();
   }
 
   void commit() { writer_.commit(); }
 
  private:
+  void begin_row(std::size_t ray, int number, const Hit& hit) {
+    writer_.field(static_cast<long long>(ray)).field(number);
+    writer_.field(hit.t).field(hit.at.face).field(hit.at.sub).field(hit.at.u).field(hit.at.v);
+    write_vector(writer_, hit.sample.position);
+    write_normal(writer_, hit.sample.normal);
+  }
+  void end_row(const Hit& hit) {
+    if (instances_) writer_.field(hit.instance);
+    writer_.end_row();
+  }
+
   CsvWriter writer_;
-  bool instances_;
+  bool senses_, instances_;
 };
 
-void query_closest(const Scene& scene, const CsvTable& rays, HitWriter& writer) {
+/// `ask` gives what HitWriter writes.
+template <class Ask>
+void answer_all(const CsvTable& rays, HitWriter& writer, Ask ask) {
   process_rows(
-      rays, [&](std::size_t row) { return scene.intersect(to_ray(rays.row(row))); },
-      [&](std::size_t row, const std::optional<Hit>& hit) { writer.write(row, hit); });
-}
-
-void query_any(const Scene& scene, const CsvTable& rays, HitWriter& writer) {
-  // char, as std::vector<bool> shares bytes between threads.
-  process_rows(
-      rays, [&](std::size_t row) { return static_cast<char>(scene.occluded(to_ray(rays.row(row)))); },
-      [&](std::size_t row, char hit) { writer.write(row, hit != 0); });
+      rays, [&](std::size_t row) { return ask(to_ray(rays.row(row))); },
+      [&](std::size_t row, const auto& answer) { writer.write(row, answer); });
 }
 
 void query_in_arena(const QueryOptions& options) {
   Stage stage = load_stage(options.model);
   const CsvTable rays = read_rays(options.rays);
   const Scene scene = build_scene(stage, options.scene);
-  HitWriter writer(options.hits, stage.is_scene);
-  if (options.any)
-    query_any(scene, rays, writer);
-  else
-    query_closest(scene, rays, writer);
+  HitWriter writer(options.hits, options.answer, stage.is_scene);
+  switch (options.answer) {
+    case Answer::closest:
+      answer_all(rays, writer, [&](const Ray& ray) { return scene.intersect(ray); });
+      break;
+    case Answer::any:
+      answer_all(rays, writer, [&](const Ray& ray) { return scene.occluded(ray); });
+      break;
+    case Answer::all:
+      answer_all(rays, writer, [&](const Ray& ray) { return scene.all_hits(ray); });
+      break;
+    case Answer::count:
+      answer_all(rays, writer, [&](const Ray& ray) { return scene.count(ray); });
+      break;
+  }
   writer.commit();
 }
 
@@ -114,9 +149,24 @@ void add_query(CLI::App& app, Command& command) {
          "file's order with groups dissolved")
       ->required()
       ->type_name("FILE");
-  sub->add_flag("--any", options->any,
-                "Ask only whether a ray hits anything, which is cheaper: the columns stay, all fields after hit are "
-                "empty, as no closest point is known");
+  const auto add_answer = [&](const char* name, Answer answer, const char* help) {
+    return sub->add_flag_callback(
+        name, [options, answer] { options->answer = answer; }, help);
+  };
+  CLI::Option* const any = add_answer(
+      "--any", Answer::any,
+      "Ask only whether a ray hits anything, which is cheaper: the columns stay, all fields after hit are empty, as no "
+      "closest point is known");
+  CLI::Option* const all =
+      add_answer("--all", Answer::all,
+                 "All hits, in ascending order of t: a row for each, hit counts from 1, and one column more, sense: -1 "
+                 "where the ray "
+                 "enters (against the normal), 1 where it leaves, 0 where it touches and stays on its side");
+  CLI::Option* const count = add_answer(
+      "--count", Answer::count,
+      "How many hits are crossings, which is odd from inside of a closed surface: the columns are ray,count");
+  any->excludes(all)->excludes(count);
+  all->excludes(count);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     std::vector<NamedFile> inputs = inputs_of(options->model);

@@ -13,8 +13,13 @@ struct QueryOptions {
   SceneOptions scene;          ///< --uniform
   std::filesystem::path rays;  ///< --rays
   std::filesystem::path hits;  ///< -o
-  bool any = false;            ///< --any: only whether a ray hits
-  int threads = 0;             ///< --threads; 0: all
+  enum class Answer {
+    closest,
+    any,   ///< --any: only whether a ray hits
+    all,   ///< --all: every hit
+    count  ///< --count: how many of them are crossings
+  } answer = Answer::closest;
+  int threads = 0;  ///< --threads; 0: all
 };
 
 /// Answers every ray of the file, in order. Throws InputError for bad input, with the line of a bad ray. Returns

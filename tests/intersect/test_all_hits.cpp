@@ -1,0 +1,226 @@
+// All hits of a ray: each crossing once, at edges and vertices, too, and a count that tells inside from outside.
+#include <map>
+
+#include "intersect/scene.h"
+#include "schemes/errors.h"
+#include "tests/catch.h"
+#include "tests/intersect/aimed_rays.h"
+#include "tests/intersect/random_rays.h"
+#include "tests/meshes.h"
+#include "tests/models.h"
+
+namespace shaolin {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Every side of a face is one of exactly one other, the other way round, and all faces have a surface.
+bool is_closed(const ControlMesh& mesh) {
+  std::map<std::pair<int, int>, int> sides;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const auto v = mesh.face(f);
+    for (std::size_t i = 0; i < v.size(); ++i) ++sides[{v[i], v[(i + 1) % v.size()]}];
+  }
+  const auto is_matched = [&](const auto& side) {
+    const auto other = sides.find({side.first.second, side.first.first});
+    return side.second == 1 && other != sides.end() && other->second == 1;
+  };
+  return mesh.holes.empty() && std::all_of(sides.begin(), sides.end(), is_matched);
+}
+
+/// What must be true of all hits of a ray through a closed surface: ascending, entering and leaving in turns.
+std::string fault_of_all(const Scene& scene, const Ray& ray, const std::vector<Crossing>& all, double diagonal) {
+  int side = 0;
+  double last = -infinity;
+  for (const Crossing& crossing : all) {
+    if (crossing.hit.t < last) return "out of order";
+    last = crossing.hit.t;
+    if (std::string fault = fault_of(scene, ray, crossing.hit, diagonal); !fault.empty()) return fault;
+    if (crossing.sense == Sense::touches) continue;
+    const int sense = static_cast<int>(crossing.sense);
+    if (side != 0 && sense == side) return "crosses the same way twice";
+    side = sense;
+  }
+  return {};
+}
+
+Vec3 point_in(const Box& box, Random& random) {
+  Vec3 point;
+  for (int k = 0; k < 3; ++k) point[k] = box.lower[k] + random.uniform() * (box.upper[k] - box.lower[k]);
+  return point;
+}
+
+}  // namespace
+
+TEST_CASE("Random rays cross closed surfaces an even number of times, in and out in turns", "[intersect][all]") {
+  int models = 0;
+  for (const Model& model : all_models()) {
+    if (!is_closed(model.mesh)) continue;
+    ++models;
+    INFO(model.name);
+    const Scene scene(model.mesh, model.scheme);
+    const double diagonal = model.mesh.diagonal();
+    int odd = 0, faults = 0, differ = 0;
+    std::string first;
+    for (const Ray& ray : random_rays(scene.bounds(), 300, 11)) {
+      Ray whole = ray;
+      whole.tmin = -infinity;
+      whole.tmax = infinity;
+      const std::vector<Crossing> all = scene.all_hits(whole);
+      odd += scene.count(whole) % 2 != 0;
+      const std::string fault = fault_of_all(scene, whole, all, diagonal);
+      faults += !fault.empty();
+      if (first.empty()) first = fault;
+      // The first of them is the closest hit, and those within an interval are its hits.
+      const std::optional<Hit> closest = scene.intersect(ray);
+      const std::vector<Crossing> ahead = scene.all_hits(ray);
+      differ += closest.has_value() != !ahead.empty();
+      if (closest && !ahead.empty()) differ += std::abs(closest->t - ahead.front().hit.t) > 1e-12 * diagonal;
+    }
+    INFO(first);
+    CHECK(odd == 0);
+    CHECK(faults == 0);
+    CHECK(differ == 0);
+  }
+  CHECK(models >= 5);
+}
+
+TEST_CASE("All hits are those found one after the other", "[intersect][all]") {
+  for (const Model& model : all_models()) {
+    INFO(model.name);
+    const Scene scene(model.mesh, model.scheme);
+    const double step = 1e-9 * model.mesh.diagonal();
+    int differ = 0;
+    for (const Ray& ray : random_rays(scene.bounds(), 200, 12)) {
+      const std::vector<Crossing> all = scene.all_hits(ray);
+      Ray rest = ray;
+      std::size_t found = 0;
+      for (std::optional<Hit> hit; (hit = scene.intersect(rest)); ++found) {
+        if (found < all.size()) differ += std::abs(hit->t - all[found].hit.t) > step;
+        rest.tmin = hit->t + step;
+      }
+      differ += found != all.size();
+    }
+    CHECK(differ == 0);
+  }
+}
+
+TEST_CASE("Rays through edges and vertices of closed surfaces cross each place once", "[intersect][all]") {
+  Random random(13);
+  for (const Model& model : all_models()) {
+    if (!is_closed(model.mesh)) continue;
+    INFO(model.name);
+    const Scene scene(model.mesh, model.scheme);
+    const LimitSurface& surface = scene.surface();
+    const double diagonal = model.mesh.diagonal();
+    int rays = 0, odd = 0, faults = 0, lost = 0;
+    std::string first;
+    for_each_patch(surface, [&](int face, int sub) {
+      if (random.uniform() > 150.0 / surface.face_count()) return;
+      const auto sides = domain_corners(surface).size();
+      for (std::size_t k = 0; k < sides; ++k)
+        for (const double along : {0.0, 0.5, random.uniform()}) {
+          const SurfaceParameter at = on_side(surface, face, sub, k, along);
+          const LimitSample target = *surface.evaluate(at);
+          const Vec3 direction = (point_in(scene.bounds(), random) - target.position).normalized();
+          if (std::abs(direction.dot(target.normal)) < 1e-3) continue;
+          Ray ray = ray_at(target.position, direction, 2 * diagonal);
+          ray.tmin = -infinity;
+          const std::vector<Crossing> all = scene.all_hits(ray);
+          ++rays;
+          odd += scene.count(ray) % 2 != 0;
+          const auto is_target = [&](const Crossing& c) {
+            return (c.hit.sample.position - target.position).norm() < 1e-9 * diagonal;
+          };
+          lost += std::count_if(all.begin(), all.end(), is_target) != 1;
+          const std::string fault = fault_of_all(scene, ray, all, diagonal);
+          faults += !fault.empty();
+          if (first.empty() && !fault.empty()) {
+            std::ostringstream text;
+            text << fault << " at face " << face << " sub " << sub << " side " << k << " along " << along;
+            first = text.str();
+          }
+        }
+    });
+    INFO(first);
+    CAPTURE(rays);
+    CHECK(odd == 0);
+    CHECK(faults == 0);
+    CHECK(lost == 0);
+  }
+}
+
+TEST_CASE("Through a sharp cube: faces, edges, corners, and along them", "[intersect][all]") {
+  const Scene scene(cube(), "bilinear");  // the unit cube, or one of side 2: where it is, its box says
+  const Box box = scene.surface().control_mesh().positions.empty() ? Box() : [&] {
+    Box of;
+    for (const Vec3& point : scene.surface().control_mesh().positions) of.add(point);
+    return of;
+  }();
+  const Vec3 size = box.upper - box.lower, middle = box.centre();
+  const auto senses = [&](const Vec3& from, const Vec3& to) {
+    std::vector<int> result;
+    for (const Crossing& crossing : scene.all_hits(Ray{from - 2 * (to - from), to - from, 0, infinity}))
+      result.push_back(static_cast<int>(crossing.sense));
+    return result;
+  };
+  const std::vector<int> through{-1, 1};
+  CHECK(senses(middle, middle + Vec3(0.3, 0.2, 1)) == through);
+  CHECK(senses(box.lower, box.upper) == through);                                        // corner to corner
+  CHECK(senses(box.lower + Vec3(size.x() / 2, 0, 0), middle) == through);                // through two edges
+  CHECK(senses(box.lower, box.lower + Vec3(size.x(), -size.y(), 0)) == std::vector{0});  // a corner alone
+  CHECK(senses(box.lower + Vec3(0, 0, size.z() / 2), box.lower + Vec3(size.x(), -size.y(), size.z() / 2)) ==
+        std::vector{0});  // an edge alone
+  const Ray above{{middle.x(), middle.y(), box.upper.z() + 1}, {1, 0, 0}, 0, infinity};
+  CHECK(scene.all_hits(above).empty());
+  CHECK(scene.count(above) == 0);
+}
+
+TEST_CASE("All hits of streams and of instances are those of single rays, sorted", "[intersect][all]") {
+  const auto object = make_object(torus("loop", 12, 8), "loop");
+  const Affine moved = Affine(Eigen::Translation3d(0.4, 0.1, 0.2)) * Affine(Eigen::Scaling(1.0, -1.5, 0.7));
+  const Scene scene({{object, Affine::Identity()}, {object, moved}});
+  const std::vector<Ray> rays = random_rays(scene.bounds(), 400, 14);
+  const auto all = scene.all_hits(std::span(rays));
+  const auto counts = scene.count(std::span(rays));
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::vector<Crossing> one = scene.all_hits(rays[i]);
+    REQUIRE(one.size() == all[i].size());
+    CHECK(scene.count(rays[i]) == counts[i]);
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      CHECK(same(one[k].hit, all[i][k].hit));
+      if (k > 0) CHECK(one[k].hit.t >= one[k - 1].hit.t);
+      const double cosine = one[k].hit.sample.normal.dot(rays[i].direction);
+      if (one[k].sense != Sense::touches) CHECK((cosine > 0) == (one[k].sense == Sense::leaves));
+    }
+    hits += one.size();
+  }
+  CHECK(hits > 200);
+  CHECK(scene.statistics().rays == 4 * rays.size());
+}
+
+TEST_CASE("A ray within a flat surface touches it once", "[intersect][all]") {
+  const Scene scene(sheet("catmark", 4, 4), "catmark");
+  const Box box = scene.bounds();
+  const Vec3 middle = box.centre();
+  for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0.3, 1, 0)}) {
+    const Ray ray{middle - 10 * direction, direction, 0, infinity};
+    const std::vector<Crossing> all = scene.all_hits(ray);
+    REQUIRE(all.size() == 1);
+    CHECK(all.front().sense == Sense::touches);
+    CHECK(scene.count(ray) == 0);
+  }
+}
+
+TEST_CASE("Only exact objects have all hits", "[intersect][all]") {
+  SceneOptions options;
+  options.method = Method::uniform;
+  const Scene scene(cube(), "catmark", options);
+  const Ray ray{{0, 0, 5}, {0, 0, -1}, 0, infinity};
+  CHECK_THROWS_AS(scene.all_hits(ray), InputError);
+  CHECK_THROWS_AS(scene.count(Ray{{0, 0, 5}, Vec3::Zero(), 0, infinity}), InputError);
+}
+
+}  // namespace shaolin
