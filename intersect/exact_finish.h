@@ -45,6 +45,7 @@ class ExactFinish {
     /// A box of the control points.
     const Box& reach() const { return reach_; }
     std::uint64_t bytes() const { return patch_->bytes(); }
+    std::uint64_t grown_bytes() const { return Parts<S>::bytes_in(parts_); }
 
    private:
     Vec3 normal_;
