@@ -70,7 +70,7 @@ class ShaoLin {
   };
 
   const StartPatch& start_patch(int primitive) const {
-    const StartPatch* known = start_patches_.find(static_cast<std::size_t>(primitive));
+    const StartPatch* const known = start_patches_.find(static_cast<std::size_t>(primitive));
     return known ? *known : make_start_patch(primitive);
   }
   const StartPatch& make_start_patch(int primitive) const;
@@ -129,7 +129,6 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
       [&](int primitive) {
         const StartPatch& start = start_patch(primitive);
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
-        start_patches_.use(static_cast<std::size_t>(primitive));
         const std::optional<Found> found = finish_.template search<query>(start, approach, start_patches_.totals());
         if (!found) return false;
         best = {*found, primitives_[static_cast<std::size_t>(primitive)]};

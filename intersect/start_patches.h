@@ -33,17 +33,15 @@ class StartPatches final : private PatchBudget::Keeper {
   /// Null: see shaolin.h.
   PatchBudget* budget() const { return budget_.get(); }
 
-  /// Null if there is none at the moment. What there is stays until the PatchBudget::Query ends that this was asked in.
-  const StartPatch* find(std::size_t number) const { return slots_[number].load(std::memory_order_acquire); }
+  /// Null if there is none at the moment. What there is stays until the PatchBudget::Query ends that this was asked in,
+  /// and is to stay longer than what nobody asks for.
+  const StartPatch* find(std::size_t number) {
+    if (budget_) use(number);
+    return slots_[number].load(std::memory_order_acquire);
+  }
 
   /// What another thread has kept in the meantime, or `made`, whose making is counted then.
   const StartPatch& keep(std::size_t number, std::unique_ptr<const StartPatch> made, const TreeTotals& making);
-
-  /// A ray needed one: it is to stay before those that no ray needs.
-  void use(std::size_t number) {
-    if (budget_ && uses_[number].load(std::memory_order_relaxed) != Use::now)
-      uses_[number].store(Use::now, std::memory_order_relaxed);
-  }
 
   /// Where what grows in trees is counted.
   TreeTotals& totals() { return totals_; }
@@ -59,6 +57,12 @@ class StartPatches final : private PatchBudget::Keeper {
 
  private:
   enum class Use : std::uint8_t { never, before, now };
+
+  /// Only what is made, so that keep() knows what was made before; and most are marked already.
+  void use(std::size_t number) {
+    if (uses_[number].load(std::memory_order_relaxed) == Use::before)
+      uses_[number].store(Use::now, std::memory_order_relaxed);
+  }
 
   bool was_used(std::size_t number) override {
     return uses_[number].exchange(Use::before, std::memory_order_relaxed) == Use::now;
