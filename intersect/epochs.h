@@ -14,6 +14,9 @@ class EpochGuard {
   EpochGuard(const EpochGuard&) = delete;
   EpochGuard& operator=(const EpochGuard&) = delete;
 
+  /// False: at its end the thread still reads.
+  bool is_outermost() const { return is_outermost_; }
+
  private:
   bool is_outermost_;
 };

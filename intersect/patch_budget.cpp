@@ -1,5 +1,7 @@
 #include "patch_budget.h"
 
+#include <thread>
+
 #include "../schemes/errors.h"
 
 namespace shaolin {
@@ -24,14 +26,16 @@ void PatchBudget::remove(const Keeper& keeper) {
 }
 
 void PatchBudget::Query::end() {
+  const bool may_wait = guard_->is_outermost();  // not for itself
   guard_.reset();
   // Either who evicts at the same time sees that this query is done, or this sees what that one found too much.
   std::atomic_thread_fence(std::memory_order_seq_cst);
-  if (budget_->held() > budget_->bytes_) budget_->evict();
+  // A thread that sleeps in a query holds up what others free; they let it run rather than make more.
+  while (budget_->held() > budget_->bytes_ && !budget_->evict() && may_wait) std::this_thread::yield();
 }
 
 /// The last of the queries that end while there is too much finds all others done, and frees what they left.
-void PatchBudget::evict() {
+bool PatchBudget::evict() {
   const std::scoped_lock lock(mutex_);
   // Up to what trees grow by at the moment, for which the queries that do it come here again.
   const auto is_too_much = [&] { return held() > bytes_ + unlinked_bytes_; };
@@ -46,6 +50,7 @@ void PatchBudget::evict() {
   }
   const std::uint64_t oldest = oldest_epoch();
   while (!unlinked_.empty() && unlinked_.front().epoch < oldest) free(unlinked_.begin());
+  return unlinked_bytes_ <= bytes_;
 }
 
 void PatchBudget::unlink(Trees::iterator tree) {

@@ -15,9 +15,10 @@ namespace shaolin {
 /// second-chance rule), and made anew when a ray needs them again. So a small budget costs time; answers are the same
 /// bit for bit.
 ///
-/// What a query finds stays until it ends, for other threads' queries, too. So queries that are underway may together
-/// hold more than the budget, each what it meets itself; when none is, the budget is kept. Hierarchies, meshes and the
-/// lists that say which trees there are (some 80 bytes each) do not count. Thread-safe.
+/// When no query is underway, the budget is kept. Those that are may hold more: each what it meets itself; and what is
+/// dropped is freed only once no query is underway that may be in it, of which there is as much again as the budget at
+/// most, for a query that ends and finds more waits until it is less. Hierarchies, meshes and the lists that say which
+/// trees there are (some 80 bytes each) do not count. Thread-safe.
 class PatchBudget {
  public:
   /// Throws InputError if it is 0.
@@ -82,7 +83,8 @@ class PatchBudget {
   };
   using Trees = std::list<Tree>;  // moves from list to list without allocation: eviction cannot fail
 
-  void evict();
+  /// False if too much waits for queries that are underway.
+  bool evict();
   void unlink(Trees::iterator tree);
   void free(Trees::iterator tree);
 

@@ -148,6 +148,36 @@ TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
   }
 }
 
+TEST_CASE("Under load there is twice the budget at most, and what queries that are underway need",
+          "[intersect][budget]") {
+  constexpr std::size_t threads = 4;
+  const Shape shape = shapes()[1];
+  const std::vector<Ray> rays = random_rays(shape.scene(nullptr).bounds(), 500, 85);
+  std::uint64_t most = 0;  // of one query
+  for (const Ray& ray : rays) {
+    const Scene cold = shape.scene(nullptr);
+    const std::uint64_t empty = cold.statistics().bytes;
+    cold.intersect(ray);
+    most = std::max(most, cold.statistics().bytes - empty);
+  }
+  const auto budget = std::make_shared<PatchBudget>(most);
+  const Scene scene = shape.scene(budget);
+  std::vector<std::uint64_t> peaks(threads);
+  std::vector<std::thread> running;
+  for (std::uint64_t& peak : peaks)
+    running.emplace_back([&] {
+      for (int round = 0; round < 20; ++round)
+        for (const Ray& ray : rays) {
+          scene.intersect(ray);
+          peak = std::max(peak, budget->held());
+        }
+    });
+  for (std::thread& thread : running) thread.join();
+  CHECK(scene.statistics().patches_evicted > 10000);
+  CHECK(*std::max_element(peaks.begin(), peaks.end()) <= 2 * most + threads * most);
+  CHECK(budget->held() <= most);
+}
+
 TEST_CASE("Objects share a memory budget", "[intersect][budget]") {
   const Shape shape = shapes()[1];
   const Scene alone = shape.scene(nullptr);
