@@ -270,7 +270,7 @@ std::uint64_t Parts<S>::bytes_in(const Slot& slot) {
   std::uint64_t sum = parts->bytes();
   for (const Eight* eight : {&parts->first_, static_cast<const Eight*>(parts->second_.get())})
     if (eight)
-      for (const Slot& inner : eight->parts) sum += bytes_in(inner);
+      for (const Slot& below : eight->parts) sum += bytes_in(below);
   return sum;
 }
 
