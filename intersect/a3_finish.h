@@ -26,6 +26,7 @@ class A3Finish {
     const Box& bounds() const { return box_; }
     const Node& root() const { return root_; }
     std::uint64_t bytes() const { return root_.own_bytes(); }
+    std::uint64_t grown_bytes() const { return root_.bytes_below(); }
 
    private:
     Box box_;

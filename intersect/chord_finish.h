@@ -42,6 +42,11 @@ class ChordFinish {
       for (const auto& part : parts_) bytes += part->root.own_bytes();
       return bytes;
     }
+    std::uint64_t grown_bytes() const {
+      std::uint64_t bytes = 0;
+      for (const auto& part : parts_) bytes += part->root.bytes_below();
+      return bytes;
+    }
 
    private:
     Box box_;

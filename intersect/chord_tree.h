@@ -90,8 +90,9 @@ class ChordNode {
   template <class ChildrenOf>
   Neighbour neighbour(std::size_t edge, const ChildrenOf& children_of) const;
 
-  /// Without its children and their points.
+  /// Without its children and their points, and of all that there is of these.
   std::uint64_t own_bytes() const;
+  std::uint64_t bytes_below() const;
 
  private:
   /// Of irregular outer edges; those of regular ones follow from the patch.
@@ -158,6 +159,13 @@ struct ChordNode<S>::Children {
   std::array<ChordCorner, sides - 3> centre;  ///< of a quad
   std::vector<Vec3> points;
   std::array<ChordNode, 4> nodes;
+
+  /// Of the four alone.
+  std::uint64_t bytes() const {
+    std::uint64_t bytes = sizeof *this + points.capacity() * sizeof(Vec3);
+    for (const ChordNode& child : nodes) bytes += child.own_bytes();
+    return bytes;
+  }
 };
 
 template <Scheme S>
@@ -176,6 +184,15 @@ std::uint64_t ChordNode<S>::own_bytes() const {
     bytes += sizeof(Borders);
     for (const auto& hull : *borders_) bytes += hull.capacity() * sizeof(Vec3);
   }
+  return bytes;
+}
+
+template <Scheme S>
+std::uint64_t ChordNode<S>::bytes_below() const {
+  const Children* const children = children_.load(std::memory_order_acquire);
+  if (!children) return 0;
+  std::uint64_t bytes = children->bytes();
+  for (const ChordNode& child : children->nodes) bytes += child.bytes_below();
   return bytes;
 }
 
@@ -282,9 +299,7 @@ auto ChordNode<S>::children(BorderHulls hulls, TreeTotals& totals) const -> cons
   std::unique_ptr<Children> made = split(hulls);
   Children* expected = nullptr;
   if (!children_.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-  std::uint64_t bytes = sizeof(Children) + made->points.capacity() * sizeof(Vec3);
-  for (const ChordNode& child : made->nodes) bytes += child.own_bytes();
-  totals.bytes += bytes;
+  totals.bytes += made->bytes();
   ++totals.patches_split;
   return *made.release();
 }

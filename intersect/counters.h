@@ -36,10 +36,11 @@ struct RayCounters {
 struct Statistics : RayCounters {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
-  std::uint64_t faces = 0;          ///< faces with a limit surface (n-gons count once per corner)
-  std::uint64_t faces_touched = 0;  ///< of these, the ones that any ray made refine
-  std::uint64_t patches_split = 0;  ///< patches whose four children were made
-  std::uint64_t bytes = 0;          ///< memory held by patches and their tables
+  std::uint64_t faces = 0;            ///< faces with a limit surface (n-gons count once per corner)
+  std::uint64_t faces_touched = 0;    ///< of these, the ones that any ray made refine
+  std::uint64_t patches_split = 0;    ///< patches whose four children were made; again, if they were evicted
+  std::uint64_t patches_evicted = 0;  ///< start patches dropped, with all made of them, for a memory budget
+  std::uint64_t bytes = 0;            ///< memory held by patches and their tables
 
   std::uint64_t invalid_patches = 0;     ///< start patches that overlap themselves in projection (eq. 6): split
   std::uint64_t unresolved_patches = 0;  ///< of their parts, those that still do at the depth bound

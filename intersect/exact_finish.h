@@ -47,6 +47,7 @@ class ExactFinish {
     /// A box of the control points.
     const Box& reach() const { return reach_; }
     std::uint64_t bytes() const { return patch_->bytes(); }
+    std::uint64_t grown_bytes() const { return Parts<S>::bytes_in(parts_); }
 
    private:
     // What every ray reads that reaches the patch comes first, in one cache line.

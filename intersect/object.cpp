@@ -26,6 +26,8 @@ void check(const ChordOptions& options) {
 const SceneOptions& checked(const SceneOptions& options) {
   if (options.method == Method::uniform && (options.level < 1 || options.level > 10))
     throw InputError("tessellation level " + std::to_string(options.level) + " is out of range; expected 1 to 10");
+  if (options.method == Method::uniform && options.budget)
+    throw InputError("a tessellation takes no memory budget; expected another method, or none");
   if (options.method == Method::chord || options.method == Method::a3) check(options.chord);
   return options;
 }

@@ -15,6 +15,7 @@
 namespace shaolin {
 
 class LimitSurface;
+class PatchBudget;
 class SchemeMasks;
 
 /// What rays are intersected with: the limit surface, to rounding error; or, for comparison, what Mueller et al. 2003
@@ -26,11 +27,14 @@ struct SceneOptions {
   Method method = Method::exact;
   int level = 5;       ///< of Method::uniform: 1 to 10 refinement steps; time and memory grow as 4^level
   ChordOptions chord;  ///< of Method::chord and Method::a3
+  /// Bounds the memory of what rays refine, of all objects that share it; null: all is kept. Not for Method::uniform,
+  /// whose triangles are one piece.
+  std::shared_ptr<PatchBudget> budget = nullptr;
 };
 
 /// A limit surface and its intersector, in the coordinates of its control mesh. Queries are const and may run
-/// concurrently, from several scenes, too; refinement that they cause is kept and never changes an answer.
-/// make_object() makes one, a Scene asks it.
+/// concurrently, from several scenes, too; refinement that they cause is kept (see SceneOptions::budget) and never
+/// changes an answer. make_object() makes one, a Scene asks it.
 class Object {
  public:
   virtual ~Object() = default;
@@ -41,8 +45,8 @@ class Object {
   /// there are none.
   virtual Box bounds() const = 0;
 
-  /// What rays have made so far: faces, faces_touched, patches_split, bytes, invalid_patches and unresolved_patches.
-  /// The other fields are a scene's.
+  /// What rays have made so far: faces, faces_touched, patches_split, patches_evicted, bytes, invalid_patches and
+  /// unresolved_patches. The other fields are a scene's.
   virtual void add_to(Statistics& total) const = 0;
 
   /// The closest hit with tmin <= t <= tmax, or empty. A scene has checked the ray's numbers.

@@ -147,7 +147,9 @@ class Parts {
   SceneBox bound() const;
   /// Patches and pieces that were split.
   int splits() const { return splits_; }
+  /// Without parts of parts; and of a slot, with all that there are.
   std::uint64_t bytes() const;
+  static std::uint64_t bytes_in(const Slot& slot);
 
  private:
   static constexpr std::size_t most = 16;
@@ -273,6 +275,17 @@ template <Scheme S>
 std::uint64_t Parts<S>::bytes() const {
   std::uint64_t sum = sizeof *this + (second_ ? sizeof(Eight) : 0) + patches_.capacity() * sizeof(patches_[0]);
   for (const auto& patch : patches_) sum += patch->bytes();
+  return sum;
+}
+
+template <Scheme S>
+std::uint64_t Parts<S>::bytes_in(const Slot& slot) {
+  const Parts* const parts = slot.load(std::memory_order_acquire);
+  if (!parts) return 0;
+  std::uint64_t sum = parts->bytes();
+  for (const Eight* eight : {&parts->first_, static_cast<const Eight*>(parts->second_.get())})
+    if (eight)
+      for (const Slot& below : eight->parts) sum += bytes_in(below);
   return sum;
 }
 

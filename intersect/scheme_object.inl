@@ -48,15 +48,15 @@ std::shared_ptr<const Object> make_scheme_object(ControlMesh mesh, const S& sche
   };
   switch (options.method) {
     case Method::chord:
-      return make.template operator()<ShaoLin<S, ChordFinish>>(ChordFinish<S>(options.chord));
+      return make.template operator()<ShaoLin<S, ChordFinish>>(ChordFinish<S>(options.chord), options.budget);
     case Method::a3:
-      return make.template operator()<ShaoLin<S, A3Finish>>(A3Finish<S>(options.chord));
+      return make.template operator()<ShaoLin<S, A3Finish>>(A3Finish<S>(options.chord), options.budget);
     case Method::uniform:
       return make.template operator()<Uniform<S>>(options.level);
     case Method::exact:
       break;
   }
-  return make.template operator()<ShaoLin<S, ExactFinish>>();
+  return make.template operator()<ShaoLin<S, ExactFinish>>(ExactFinish<S>(), options.budget);
 }
 
 }  // namespace shaolin

@@ -2,7 +2,6 @@
 /// ShaoLin, the shadow of the line: ray queries on the limit surface of a subdivision mesh (Mueller, Techmann, Fellner,
 /// "Adaptive ray tracing of subdivision surfaces", Eurographics 2003).
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,9 +12,17 @@
 #include "bvh.h"
 #include "crossings.h"
 #include "face_bounds.h"
-#include "tree_totals.h"
+#include "start_patches.h"
 
 namespace shaolin {
+
+/// A finish that gives all hits of a ray, too:
+///     void search_all(const StartPatch&, const Approach&, TreeTotals&, std::vector<Found>&) const;
+/// appends them; its Found has `reach`, `is_proven` and `error` besides, as ExactFinish's.
+template <class Finish>
+concept FindsAll = requires {
+  &Finish::search_all;
+};
 
 /// The part of the algorithm that all finishes share: a hierarchy over the faces, and start patches, made when a ray
 /// first reaches their faces. What happens inside a start patch is the finish's: ExactFinish<S> (exact_finish.h) finds
@@ -24,7 +31,8 @@ namespace shaolin {
 ///
 ///     struct StartPatch;  // from (Patch<S>, level, const BoxSpace&, const Finish&, TreeTotals&)
 ///       const SceneBox& box() const;  // holds what search() may find
-///       std::uint64_t bytes() const;  // its own; what grows later goes to the totals
+///       std::uint64_t bytes() const;  // its own; what grows in it goes to the totals when it is made
+///       std::uint64_t grown_bytes() const;  // of all that has grown so far
 ///     struct Found { double distance; ... };
 ///     template <Query> std::optional<Found> search(const StartPatch&, Approach&, TreeTotals&) const;
 ///     Hit hit(const Found&, face, sub, const SchemeSurface<S>&) const;  // all but t and instance
@@ -33,14 +41,10 @@ namespace shaolin {
 template <Scheme S, template <class> class Finish>
 class ShaoLin {
  public:
-  /// Bounds every face (see face_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet. Throws
-  /// InputError if a face has no finite bound.
-  explicit ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& finish = {});
-  ~ShaoLin() {
-    for (auto& slot : start_patches_) delete slot.load();
-  }
-  ShaoLin(const ShaoLin&) = delete;
-  ShaoLin& operator=(const ShaoLin&) = delete;
+  /// Bounds every face (see face_bounds.h) and builds the hierarchy. O(n log n); nothing is refined yet. What rays
+  /// refine is kept under the budget, if there is one. Throws InputError if a face has no finite bound.
+  explicit ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& finish = {},
+                   const std::shared_ptr<PatchBudget>& budget = {});
 
   /// The hit with the least t in [tmin, tmax]. Of hits at equal distance, the face visited first wins; the order of
   /// visits depends on the ray alone. The work goes to `counters`. Throws InputError where masks turn out not to
@@ -51,10 +55,7 @@ class ShaoLin {
   bool occluded(const Ray& ray, RayCounters& counters) const;
 
   /// All hits with t in [tmin, tmax], see crossings.h. Of a finish that finds the limit surface itself.
-  std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const requires
-      requires(const Finish<S>& finish) {
-    &Finish<S>::search_all;
-  };
+  std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const requires FindsAll<Finish<S>>;
 
   /// A box that holds the surface.
   const Box& bounds() const { return bvh_.bounds(); }
@@ -62,12 +63,8 @@ class ShaoLin {
   /// Adds what rays have made so far, and the memory that it takes.
   void add_to(Statistics& total) const {
     total.faces += primitives_.size();
-    total.faces_touched += faces_touched_;
-    total.patches_split += totals_.patches_split;
-    total.invalid_patches += totals_.invalid_patches;
-    total.unresolved_patches += totals_.unresolved_patches;
-    total.bytes +=
-        totals_.bytes + bvh_.bytes() + primitives_.size() * (sizeof(Primitive) + sizeof(std::atomic<StartPatch*>));
+    total.bytes += bvh_.bytes() + primitives_.size() * sizeof(Primitive);
+    start_patches_.add_to(total);
   }
 
  private:
@@ -85,7 +82,7 @@ class ShaoLin {
   };
 
   const StartPatch& start_patch(int primitive) const {
-    const StartPatch* known = start_patches_[static_cast<std::size_t>(primitive)].load(std::memory_order_acquire);
+    const StartPatch* const known = start_patches_.find(static_cast<std::size_t>(primitive));
     return known ? *known : make_start_patch(primitive);
   }
   const StartPatch& make_start_patch(int primitive) const;
@@ -96,14 +93,13 @@ class ShaoLin {
   Finish<S> finish_;
   std::vector<Primitive> primitives_;
   Bvh bvh_;
-  mutable std::vector<std::atomic<StartPatch*>> start_patches_;
-  mutable TreeTotals totals_;
-  mutable std::atomic<std::uint64_t> faces_touched_{0};
+  mutable StartPatches<StartPatch> start_patches_;
 };
 
 template <Scheme S, template <class> class Finish>
-ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& finish)
-    : surface_(surface), finish_(finish) {
+ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& finish,
+                            const std::shared_ptr<PatchBudget>& budget)
+    : surface_(surface), finish_(finish), start_patches_(budget) {
   const SubdivisionMesh<S>& mesh = surface.mesh();
   const std::vector<Box> bounds = face_bounds(mesh);
   std::vector<Box> boxes;
@@ -120,22 +116,16 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
     }
   }
   bvh_ = Bvh(boxes);
-  start_patches_ = std::vector<std::atomic<StartPatch*>>(boxes.size());
+  start_patches_.resize(boxes.size());
 }
 
 template <Scheme S, template <class> class Finish>
 auto ShaoLin<S, Finish>::make_start_patch(int primitive) const -> const StartPatch& {
   const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
-  TreeTotals made_totals;  // counted if no other thread is first
+  TreeTotals making;  // counted if no other thread is first
   auto made = std::make_unique<StartPatch>(surface_.patch(face, sub), surface_.splits_by_corner(face), bvh_.space(),
-                                           finish_, made_totals);
-  std::atomic<StartPatch*>& slot = start_patches_[static_cast<std::size_t>(primitive)];
-  StartPatch* expected = nullptr;
-  if (!slot.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *expected;
-  made_totals.bytes += sizeof(StartPatch) + made->bytes();
-  totals_.add(made_totals);
-  ++faces_touched_;
-  return *made.release();
+                                           finish_, making);
+  return start_patches_.keep(static_cast<std::size_t>(primitive), std::move(made), making);
 }
 
 template <Scheme S, template <class> class Finish>
@@ -151,7 +141,7 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
       [&](int primitive) {
         const StartPatch& start = start_patch(primitive);
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
-        const std::optional<Found> found = finish_.template search<query>(start, approach, totals_);
+        const std::optional<Found> found = finish_.template search<query>(start, approach, start_patches_.totals());
         if (!found) return false;
         best = {*found, primitives_[static_cast<std::size_t>(primitive)]};
         approach.shorten(found->distance);
@@ -162,15 +152,14 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
 
 template <Scheme S, template <class> class Finish>
 bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
+  const PatchBudget::Query guard(start_patches_.budget());
   return search<Query::any>(ray, TraversalRay(ray), counters).has_value();
 }
 
 template <Scheme S, template <class> class Finish>
-std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray, RayCounters& counters) const requires
-    requires(const Finish<S>& finish) {
-  &Finish<S>::search_all;
-}
-{
+std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
+                                                   RayCounters& counters) const requires FindsAll<Finish<S>> {
+  const PatchBudget::Query guard(start_patches_.budget());
   const TraversalRay traversal(ray);
   const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
   if (!box_ray) return {};
@@ -184,7 +173,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray, RayCounters& 
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
         const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
         found.clear();
-        finish_.search_all(start, approach, totals_, found);
+        finish_.search_all(start, approach, start_patches_.totals(), found);
         for (const Found& one : found) {
           Hit hit = finish_.hit(one, face, sub, surface_);
           hit.t = std::clamp(traversal.t(one.distance), ray.tmin, ray.tmax);
@@ -198,6 +187,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray, RayCounters& 
 
 template <Scheme S, template <class> class Finish>
 std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& counters) const {
+  const PatchBudget::Query guard(start_patches_.budget());  // what is found is in a tree
   const TraversalRay traversal(ray);
   const std::optional<FoundAt> best = search<Query::closest>(ray, traversal, counters);
   if (!best) return {};

@@ -5,19 +5,37 @@
 
 namespace shaolin {
 
+/// Bytes that are held, and a share of an account with others, if there is one, that lives longer. Thread-safe.
+class ByteCount {
+ public:
+  explicit ByteCount(std::atomic<std::uint64_t>* account = nullptr) : account_(account) {}
+  ~ByteCount() { *this -= own_; }
+  ByteCount(const ByteCount&) = delete;
+  ByteCount& operator=(const ByteCount&) = delete;
+
+  operator std::uint64_t() const { return own_; }
+  ByteCount& operator+=(std::uint64_t bytes) {
+    own_ += bytes;
+    if (account_) *account_ += bytes;
+    return *this;
+  }
+  ByteCount& operator-=(std::uint64_t bytes) {
+    own_ -= bytes;
+    if (account_) *account_ -= bytes;
+    return *this;
+  }
+
+ private:
+  std::atomic<std::uint64_t> own_{0};
+  std::atomic<std::uint64_t>* account_;
+};
+
 /// Sums over all trees of an object; see Statistics.
 struct TreeTotals {
-  std::atomic<std::uint64_t> bytes{0};
+  ByteCount bytes;
   std::atomic<std::uint64_t> patches_split{0};
   std::atomic<std::uint64_t> invalid_patches{0};
   std::atomic<std::uint64_t> unresolved_patches{0};
-
-  void add(const TreeTotals& other) {
-    bytes += other.bytes;
-    patches_split += other.patches_split;
-    invalid_patches += other.invalid_patches;
-    unresolved_patches += other.unresolved_patches;
-  }
 };
 
 }  // namespace shaolin

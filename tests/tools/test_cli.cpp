@@ -256,6 +256,20 @@ TEST_CASE("query takes the triangles of a tessellation", "[tools][cli]") {
   CHECK(folder.run({"query", model, "--rays", rays, "-o", folder / "no.csv", "--uniform", "0"}).status == 2);
 }
 
+TEST_CASE("query writes the same rows under any memory budget", "[tools][cli]") {
+  const Folder folder;
+  const std::vector<std::string> arguments{"query", data_file("torus.obj"), "--rays", data_file("rays.csv"),
+                                           "-o",    folder / "hits.csv"};
+  REQUIRE(folder.run(arguments).status == 0);
+  const std::string all = read_file(folder / "hits.csv");
+  for (const std::string budget : {"100", "0.01", "1e-9"}) {
+    std::vector<std::string> with = arguments;
+    with.insert(with.end(), {"--memory-budget", budget});
+    REQUIRE(folder.run(with).status == 0);
+    CHECK(read_file(folder / "hits.csv") == all);
+  }
+}
+
 TEST_CASE("query keeps to the interval of t", "[tools][cli]") {
   const Folder folder;
   const std::string rays = folder.write("rays.csv",

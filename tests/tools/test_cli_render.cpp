@@ -167,6 +167,35 @@ TEST_CASE("render counts what chords do", "[tools][cli]") {
   CHECK(chord.at("depth_bounds") == 0);
 }
 
+TEST_CASE("A memory budget for all objects of a scene costs work, not a pixel", "[tools][cli]") {
+  const Folder folder;
+  nlohmann::json stats;
+  const auto picture = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line{"render",  data_file("scenes/mirrors.json"),
+                                  "-o",      folder / "out.exr",
+                                  "--size",  "60x40",
+                                  "--stats", folder / "stats.json"};
+    line.insert(line.end(), more.begin(), more.end());
+    const Outcome outcome = folder.run(line);
+    CAPTURE(outcome.text);
+    REQUIRE(outcome.status == 0);
+    stats = nlohmann::json::parse(read_file(folder / "stats.json"))["statistics"];
+    return ExrImage(folder / "out.exr");
+  };
+  const ExrImage all = picture({});
+  const auto kept = stats;
+  CHECK(kept.at("patches_evicted") == 0);
+  const ExrImage some = picture({"--memory-budget", "0.05", "--threads", "2"});
+  CHECK(some.channels == all.channels);
+  CHECK(stats.at("patches_evicted") > 0);
+  CHECK(stats.at("faces_touched") == kept.at("faces_touched"));
+  CHECK(stats.at("patches_split") > kept.at("patches_split"));
+  CHECK(stats.at("bytes") < kept.at("bytes"));
+  const ExrImage much = picture({"--memory-budget", "1e300"});
+  CHECK(much.channels == all.channels);
+  CHECK(stats.at("patches_evicted") == 0);
+}
+
 TEST_CASE("Chord faces are shaded on the side and in the light of the surface", "[tools][cli]") {
   const Folder folder;
   const auto picture = [&](const std::vector<std::string>& method) {
@@ -187,7 +216,7 @@ TEST_CASE("Chord faces are shaded on the side and in the light of the surface", 
   CHECK(lit_otherwise < 15);  // on the edges of shadows
 }
 
-TEST_CASE("render says what is wrong with a tolerance", "[tools][cli]") {
+TEST_CASE("render says what is wrong with a tolerance or a budget", "[tools][cli]") {
   const Folder folder;
   const auto refused = [&](const std::vector<std::string>& method, const std::string& why) {
     std::vector<std::string> line{"render", data_file("rook.obj"), "-o", folder / "out.exr", "--size", "8x8"};
@@ -206,6 +235,9 @@ TEST_CASE("render says what is wrong with a tolerance", "[tools][cli]") {
   refused({"--min-size", "3"}, "--min-size and --max-size need --chord or --a3");
   refused({"--uniform", "3", "--max-size", "3"}, "--min-size and --max-size need --chord or --a3");
   refused({"--chord", "1", "--a3", "1"}, "excludes");
+  for (const std::string value : {"nan", "0", "-1", "inf", "abc"})
+    refused({"--memory-budget", value}, "'" + value + "' is not a number above 0");
+  refused({"--memory-budget", "1", "--uniform", "3"}, "excludes");
   const Outcome fine =
       folder.run({"render", data_file("rook.obj"), "-o", folder / "out.exr", "--size", "8x8", "--chord", "0.01",
                   "--min-size", "30"});  // more than the largest size that nobody gave

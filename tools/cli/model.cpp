@@ -1,9 +1,11 @@
 #include "tools/cli/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
+#include "intersect/patch_budget.h"
 #include "schemes/builtin.h"
 #include "schemes/load_plugin.h"
 #include "schemes/obj.h"
@@ -24,6 +26,11 @@ FaceKind face_kind_of(const std::string& scheme, const MeshPlaces& places) {
   for (const BuiltinScheme& known : builtin_schemes())
     if (scheme == known.name) return known.face_kind;
   throw InputError("unknown scheme '" + scheme + "'; expected " + builtin_scheme_names(), places.file, places.scheme);
+}
+
+/// A part of a byte is a byte; more than any machine has is no bound.
+std::shared_ptr<PatchBudget> budget_of(double mebibytes) {
+  return std::make_shared<PatchBudget>(static_cast<std::uint64_t>(std::min(std::ceil(mebibytes * 0x1p20), 0x1p63)));
 }
 
 }  // namespace
@@ -98,6 +105,13 @@ void add_method_options(CLI::App& app, SceneOptions& options) {
       add_size("--min-size", options.chord.min_size, "chord faces smaller than this are not refined");
   CLI::Option* const largest =
       add_size("--max-size", options.chord.max_size, "chord faces larger than this are refined");
+  app.add_option_function<double>(
+         "--memory-budget", [&options](double mebibytes) { options.budget = budget_of(mebibytes); },
+         "Most memory, in MiB, that what rays refine may hold, of all objects together; beyond it, what no ray needed "
+         "for the longest is dropped and made anew when needed: slower, same answers (default: all is kept)")
+      ->check(is_positive())
+      ->type_name("MiB")
+      ->excludes(uniform);
   app.parse_complete_callback([&options, chord, a3, least, largest] {
     if (least->count() + largest->count() > 0 && chord->count() + a3->count() == 0)
       throw CLI::ValidationError("--min-size and --max-size need --chord or --a3");

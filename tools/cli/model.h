@@ -25,7 +25,7 @@ struct ModelOptions {
 std::vector<NamedFile> inputs_of(const ModelOptions& options);
 
 /// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces,
-/// with --min-size and --max-size.
+/// with --min-size and --max-size; and --memory-budget MiB, one for all that is built with the options.
 void add_method_options(CLI::App& app, SceneOptions& options);
 
 /// Accepts the names of the built-in schemes.

@@ -18,6 +18,7 @@ Json to_json(const Statistics& statistics) {
           {"faces_touched", statistics.faces_touched},
           {"faces_never_touched", statistics.faces - statistics.faces_touched},
           {"patches_split", statistics.patches_split},
+          {"patches_evicted", statistics.patches_evicted},
           {"hull_tests", statistics.hull_tests},
           {"cells", statistics.cells},
           {"newton_steps", statistics.newton_steps},
