@@ -295,6 +295,29 @@ TEST_CASE("query --any fills in ray and hit only", "[tools][cli]") {
   CHECK(read_file(output) == hit_header + "\n0,1,,,,,,,,,,,\n1,0,,,,,,,,,,,\n");
 }
 
+TEST_CASE("query --all writes a row for each hit, --count how many there are", "[tools][cli]") {
+  const Folder folder;
+  const std::string rays = folder.write("rays.csv", "0.1,0.2,5,0,0,-2\n9,9,5,0,0,-1\n0.1,0.2,0,0,0,-1\n");
+  const std::string model = data_file("cube_creases.obj"), output = folder / "hits.csv";
+  REQUIRE(folder.run({"query", model, "--rays", rays, "-o", output, "--all"}).status == 0);
+  const auto table = read_rows(output);
+  REQUIRE(table.size() == 5);
+  CHECK(table[0].back() == "sense");
+  const std::vector<std::array<std::string, 3>> expected{
+      {"0", "1", "-1"}, {"0", "2", "1"}, {"1", "0", ""}, {"2", "1", "1"}};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(std::array{table[i + 1].at(0), table[i + 1].at(1), table[i + 1].back()} == expected[i]);
+  CHECK(number(table[1].at(2)) < number(table[2].at(2)));
+  REQUIRE(folder.run({"query", model, "--rays", rays, "-o", output, "--count"}).status == 0);
+  CHECK(read_file(output) == "ray,count\n0,2\n1,0\n2,1\n");
+  const std::vector<std::vector<std::string>> others{{"--any"}, {"--count"}, {"--uniform", "2"}, {"--chord", "0.1"}};
+  for (const std::vector<std::string>& other : others) {
+    std::vector<std::string> arguments{"query", model, "--rays", rays, "-o", output, "--all"};
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    CHECK(folder.run(arguments).status == 2);
+  }
+}
+
 TEST_CASE("query gives the same file for any number of threads", "[tools][cli]") {
   const Folder folder;
   std::string text;

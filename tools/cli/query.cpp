@@ -50,20 +50,20 @@ class HitWriter {
   HitWriter(const std::filesystem::path& file, Answer answer, bool instances)
       : writer_(file, columns(answer, instances)), senses_(answer == Answer::all), instances_(instances) {}
 
-  /// A row of which only the first two fields are known.
-  void write(std::size_t ray, bool hit) {
-    writer_.field(static_cast<long long>(ray)).field(hit ? 1 : 0).empty(11 + senses_ + instances_).end_row();
+  /// A row of which only the first two fields are known. (Of char, as std::vector<bool> shares bytes between threads.)
+  void write(std::size_t ray, char hit) {
+    writer_.field(static_cast<long long>(ray)).field(hit).empty(11 + senses_ + instances_).end_row();
   }
 
   void write(std::size_t ray, const std::optional<Hit>& hit) {
-    if (!hit) return write(ray, false);
+    if (!hit) return write(ray, char{0});
     begin_row(ray, 1, *hit);
     end_row(*hit);
   }
 
   /// A row for each, numbered from 1.
   void write(std::size_t ray, const std::vector<Crossing>& all) {
-    if (all.empty()) return write(ray, false);
+    if (all.empty()) return write(ray, char{0});
     int number = 0;
     for (const Crossing& crossing : all) {
       begin_row(ray, ++number, crossing.hit);
@@ -112,7 +112,7 @@ void query_in_arena(const QueryOptions& options) {
       answer_all(rays, writer, [&](const Ray& ray) { return scene.intersect(ray); });
       break;
     case Answer::any:
-      answer_all(rays, writer, [&](const Ray& ray) { return scene.occluded(ray); });
+      answer_all(rays, writer, [&](const Ray& ray) { return static_cast<char>(scene.occluded(ray)); });
       break;
     case Answer::all:
       answer_all(rays, writer, [&](const Ray& ray) { return scene.all_hits(ray); });
@@ -167,6 +167,8 @@ void add_query(CLI::App& app, Command& command) {
       "How many hits are crossings, which is odd from inside of a closed surface: the columns are ray,count");
   any->excludes(all)->excludes(count);
   all->excludes(count);
+  for (const char* method : {"--uniform", "--chord", "--a3"})
+    for (CLI::Option* const answer : {all, count}) answer->excludes(sub->get_option(method));
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     std::vector<NamedFile> inputs = inputs_of(options->model);
