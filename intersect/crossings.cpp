@@ -89,19 +89,25 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const ControlMesh
     while (group[i] != i) i = group[i] = group[group[i]];
     return i;
   };
-  double widest = 0;
-  for (const Contact& contact : contacts) widest = std::max(widest, contact.uncertainty);
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    for (std::size_t k = i; k-- > 0;) {
-      const Contact &nearer = contacts[k], &farther = contacts[i];
-      const double gap = farther.distance - nearer.distance;
-      if (gap > widest + farther.uncertainty) break;
-      if (gap > nearer.uncertainty + farther.uncertainty ||
-          !share_vertex(mesh, nearer.hit.at.face, farther.hit.at.face))
-        continue;
-      const std::size_t a = first_of(k), b = first_of(i);
-      group[std::max(a, b)] = std::min(a, b);
+  // Of each face, the contact so far that reaches farthest: of a curve of contact there are many, of faces few.
+  const auto end = [&](std::size_t i) { return contacts[i].distance + contacts[i].uncertainty; };
+  std::vector<std::size_t> farthest;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double begin = contacts[i].distance - contacts[i].uncertainty;
+    std::size_t* own = nullptr;
+    for (std::size_t& other : farthest) {
+      const int face = contacts[other].hit.at.face;
+      if (end(other) >= begin && share_vertex(mesh, face, contacts[i].hit.at.face)) {
+        const std::size_t a = first_of(other), b = first_of(i);
+        group[std::max(a, b)] = std::min(a, b);
+      }
+      if (face == contacts[i].hit.at.face) own = &other;
     }
+    if (!own)
+      farthest.push_back(i);
+    else if (end(i) > end(*own))
+      *own = i;
+  }
 
   std::vector<std::size_t> order(contacts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

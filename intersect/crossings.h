@@ -46,7 +46,7 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). A face
 /// counts pi (of its edge, or of all of its inner points), and of a corner the angle between its tangents; contacts of
 /// one face with opposite signs (a double root) cancel. The nearest contact stands for all; at equal distances the one
-/// of the lowest face and sub. O(n log n) but for contacts at one place, which are compared with each other.
+/// of the lowest face and sub. O(n log n + n f) for contacts of f faces.
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const ControlMesh& mesh, const Vec3& direction);
 
 }  // namespace shaolin

@@ -51,6 +51,7 @@ class NewtonFinish {
   /// Appends all hits. Cells that meet at one may each report it, and of a curve of contact every part is one.
   void solve(const Net& patch, std::vector<PatchHit>& hits) {
     all_ = &hits;
+    own_first_ = hits.size();
     solve(patch);
   }
 
@@ -88,8 +89,9 @@ class NewtonFinish {
     return std::max({x.high, -x.low, y.high, -y.low}) <= 2 * error_;
   }
   static Eigen::Vector2d slope(const Net& cell);
-  static double nearest_on_ray(const Net& cell, const Eigen::Vector2d& ab);
+  static Range on_ray(const Net& cell, const Eigen::Vector2d& ab);
   bool is_no_nearer(const Net& cell) const;
+  bool is_known(const Net& cell) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
   /// Of a hit in a cell's parameters.
@@ -106,6 +108,7 @@ class NewtonFinish {
   RayCounters& counters_;
   PatchHit best_;
   std::vector<PatchHit>* all_ = nullptr;  ///< where hits go if all are asked for
+  std::size_t own_first_ = 0;             ///< of them, the first of this patch
   bool found_ = false;
   int cells_ = 0;
 };
@@ -144,7 +147,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
 
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
-  if (has_hit_ && cells_ > 4 && is_no_nearer(cell)) return;
+  if (cells_ > 4 && (all_ ? is_known(cell) : has_hit_ && is_no_nearer(cell))) return;
   const double along_u_length = jacobian.col(0).norm(), along_v_length = jacobian.col(1).norm();
   if (std::abs(jacobian.determinant()) <= 1e-12 * along_u_length * along_v_length) {
     // Seen from the ray the cell is nearly a curve: the hull test across it.
@@ -196,13 +199,13 @@ Eigen::Vector2d NewtonFinish<Bezier>::slope(const Net& cell) {
   return ab.allFinite() ? ab : Eigen::Vector2d::Zero();
 }
 
-/// The least z - a x - b y.
+/// The values of z - a x - b y.
 template <class Bezier>
-double NewtonFinish<Bezier>::nearest_on_ray(const Net& cell, const Eigen::Vector2d& ab) {
+Range NewtonFinish<Bezier>::on_ray(const Net& cell, const Eigen::Vector2d& ab) {
   std::array<double, 16> plane, rest;
   combine(ab.x(), cell.x, ab.y(), cell.y, plane);
   combine(1, cell.z, -1, plane, rest);
-  return Range(rest).low;
+  return Range(rest);
 }
 
 /// True if no point of the cell that lies on the ray is nearer than the hit at hand by more than its own uncertainty:
@@ -212,7 +215,23 @@ template <class Bezier>
 bool NewtonFinish<Bezier>::is_no_nearer(const Net& cell) const {
   const Eigen::Vector2d ab = slope(cell);
   const double uncertainty = impatience() * error_ * (1 + std::min(ab.cwiseAbs().sum(), steepest));
-  return nearest_on_ray(cell, ab) > best_.distance - uncertainty;
+  return on_ray(cell, ab).low > best_.distance - uncertainty;
+}
+
+/// Of all hits: true if a point of the cell that lies on the ray is one that is known, to within what rounding leaves
+/// uncertain. Where u and v run along one curve, as at a crease's end between two of its edges, cells without number
+/// hold the same point. Cells seen edge-on have no such point: they are looked into.
+template <class Bezier>
+bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
+  const std::size_t count = all_->size(), first = std::max(own_first_, count - std::min<std::size_t>(count, 8));
+  if (first == count) return false;
+  const Eigen::Vector2d ab = slope(cell);
+  if (ab.cwiseAbs().sum() > steepest) return false;
+  const double room = 16 * error_ * (1 + ab.cwiseAbs().sum());
+  const Range range = on_ray(cell, ab);
+  return std::any_of(all_->begin() + static_cast<std::ptrdiff_t>(first), all_->end(), [&](const PatchHit& hit) {
+    return range.low >= hit.distance - room && range.high <= hit.distance + room;
+  });
 }
 
 /// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
@@ -334,7 +353,7 @@ void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const
       const std::array<Net, 2> children{Net(halves[0]), Net(halves[1])};
       Parameter child_scale = scale;
       child_scale[axis] /= 2;
-      const bool upper_first = nearest_on_ray(children[1], ab) < nearest_on_ray(children[0], ab);
+      const bool upper_first = on_ray(children[1], ab).low < on_ray(children[0], ab).low;
       for (const std::size_t k : {upper_first ? 1U : 0U, upper_first ? 0U : 1U}) {
         Parameter child_origin = origin;
         if (k == 1) child_origin[axis] += child_scale[axis];
@@ -348,7 +367,7 @@ void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const
   std::array<std::pair<double, int>, 4> order;
   for (std::size_t k = 0; k < 4; ++k) {
     children[k] = Net(quarters[k]);
-    order[k] = {nearest_on_ray(children[k], ab), static_cast<int>(k)};
+    order[k] = {on_ray(children[k], ab).low, static_cast<int>(k)};
   }
   std::sort(order.begin(), order.end());
   for (const auto& [distance, k] : order) {

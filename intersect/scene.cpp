@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <tuple>
 #include <unordered_set>
 
 #include "../schemes/errors.h"
 #include "bvh.h"
+#include "inside.h"
 #include "placement.h"
 #include "ray_order.h"
 
@@ -18,10 +20,11 @@ namespace shaolin {
 
 namespace {
 
+std::string text(const Vec3& v) {
+  return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
+}
+
 void check(const Ray& ray) {
-  const auto text = [](const Vec3& v) {
-    return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
-  };
   if (!ray.origin.allFinite()) throw InputError("ray origin " + text(ray.origin) + " is not finite");
   if (!ray.direction.allFinite()) throw InputError("ray direction " + text(ray.direction) + " is not finite");
   if (ray.direction.isZero(0)) throw InputError("ray direction is zero; expected a direction of any other length");
@@ -85,6 +88,8 @@ class Scene::Implementation {
     const auto crosses = [](const Crossing& crossing) { return crossing.sense != Sense::touches; };
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), crosses));
   }
+  bool contains(const Vec3& point) const;
+  void expect_closed_instances() const;
   Statistics statistics() const;
   const Box& bounds() const { return bounds_; }
   const std::vector<Instance>& instances() const { return instances_; }
@@ -127,6 +132,7 @@ class Scene::Implementation {
   Box bounds_;
   std::uint64_t serial_ = next_serial();
   mutable tbb::enumerable_thread_specific<Statistics> counters_;
+  mutable std::once_flag closed_;  ///< once expect_closed_instances() has found nothing
 };
 
 Scene::Implementation::Implementation(std::vector<Instance> instances) : instances_(std::move(instances)) {
@@ -236,6 +242,42 @@ std::vector<Crossing> Scene::Implementation::all_hits_of_instances(const Ray& ra
   return all;
 }
 
+void Scene::Implementation::expect_closed_instances() const {
+  std::call_once(closed_, [&] {
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+      try {
+        expect_closed(instances_[i].object->surface());
+      } catch (const InputError& error) {
+        throw InputError("instance " + std::to_string(i) + ": " + error.what());
+      }
+    }
+  });
+}
+
+bool Scene::Implementation::contains(const Vec3& point) const {
+  if (!point.allFinite()) throw InputError("point " + text(point) + " is not finite");
+  expect_closed_instances();
+  RayCounters counters;
+  bool inside = false;
+  if (sole_) {
+    inside = is_inside(*sole_, point, counters);
+  } else {
+    // A ray that ends where it starts meets the boxes that the point is in.
+    const Ray here{point, Vec3::UnitX(), 0, 0};
+    const TraversalRay traversal(here);
+    if (const std::optional<BoxRay> box_ray = bvh_.enter(traversal))
+      bvh_.traverse(
+          *box_ray, [far = box_ray->local(traversal.far)] { return far; },
+          [&](int primitive) {
+            const Leaf& leaf = leaves_[static_cast<std::size_t>(primitive)];
+            const std::optional<Ray> local = leaf.placement.to_object(here);
+            return inside = local && is_inside(*leaf.object, local->origin, counters);
+          });
+  }
+  own_counters() += counters;
+  return inside;
+}
+
 Statistics Scene::Implementation::statistics() const {
   Statistics total;
   for (const Statistics& local : counters_) {
@@ -277,6 +319,13 @@ std::vector<std::vector<Crossing>> Scene::all_hits(std::span<const Ray> rays) co
 }
 std::vector<std::size_t> Scene::count(std::span<const Ray> rays) const {
   return implementation_->counted<std::size_t>(rays, &Implementation::count);
+}
+bool Scene::contains(const Vec3& point) const { return implementation_->contains(point); }
+std::vector<char> Scene::contains(std::span<const Vec3> points) const {
+  std::vector<char> answers(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t i) { answers[i] = static_cast<char>(contains(points[i])); });
+  return answers;
 }
 const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }

@@ -53,6 +53,10 @@ class Scene {
   /// inside of it. Throws as all_hits() does.
   std::size_t count(const Ray& ray) const;
 
+  /// True if the point is inside of any instance, all of which must be closed surfaces, see inside.h. Throws InputError
+  /// if the point is not finite, if an instance is open (it names the edge), or an object's method is not exact.
+  bool contains(const Vec3& point) const;
+
   /// Many rays, coherent or not, on as many threads as oneTBB gives: answer i is that to rays[i] alone, bit for bit.
   /// They are traced in an order in which rays follow each other that are likely to meet the same patches. Throw
   /// InputError that names the first ray that intersect() refuses, before any is traced. O(n log n) in addition.
@@ -61,6 +65,9 @@ class Scene {
   std::vector<char> occluded(std::span<const Ray> rays) const;
   std::vector<std::vector<Crossing>> all_hits(std::span<const Ray> rays) const;
   std::vector<std::size_t> count(std::span<const Ray> rays) const;
+
+  /// Many points, on as many threads as oneTBB gives; 1 where contains() is true.
+  std::vector<char> contains(std::span<const Vec3> points) const;
 
   const std::vector<Instance>& instances() const;
 

