@@ -6,6 +6,9 @@
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
+
+#include "../schemes/limit_surface.h"
 
 namespace shaolin {
 
@@ -28,57 +31,52 @@ bool share_vertex(const ControlMesh& mesh, int a, int b) {
   return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-/// The angle that a face takes at the contact, seen along the ray.
-double angle(const Contact& contact, bool triangles, const Vec3& direction) {
-  const SurfaceParameter& at = contact.hit.at;
-  const auto is_end = [](double x) { return x == 0 || x == 1; };
-  const bool is_corner = is_end(at.u) && is_end(at.v);
-  if (!is_corner || !contact.hit.sample.derivatives) return std::numbers::pi;
-  const auto seen = [&](const Vec3& v) -> Vec3 { return v - v.dot(direction) * direction; };
-  const Derivatives& d = *contact.hit.sample.derivatives;
-  Vec3 a = seen(d.du), b = seen(d.dv);
-  if (triangles) {  // towards the two other corners
-    if (at.u == 1)
-      a = -a, b = b + a;
-    else if (at.v == 1)
-      b = -b, a = a + b;
-  } else {
-    if (at.u == 1) a = -a;
-    if (at.v == 1) b = -b;
-  }
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+/// The angle that a face takes around the ray at a contact: pi, but at a corner. There it is that between the sides, of
+/// which short chords will do, for the angles of all faces together are a multiple of 2 pi. (Tangents may be missing.)
+double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3& direction) {
+  constexpr double chord = 1e-3, near = 1e-6;
+  const auto is_end = [](double x) { return x < near || x > 1 - near; };
+  if (!is_end(at.u) || !is_end(at.v)) return std::numbers::pi;
+  const double u = std::round(at.u), v = std::round(at.v);
+  SurfaceParameter a{at.face, at.sub, u == 0 ? chord : 1 - chord, v}, b{at.face, at.sub, u, v == 0 ? chord : 1 - chord};
+  if (surface.triangular() && u == 1) b.u = 1 - chord;
+  if (surface.triangular() && v == 1) a.v = 1 - chord;
+  const auto corner = surface.evaluate({at.face, at.sub, u, v}), to_a = surface.evaluate(a), to_b = surface.evaluate(b);
+  if (!corner || !to_a || !to_b) return std::numbers::pi;
+  const auto seen = [&](const std::optional<LimitSample>& end) -> Vec3 {
+    const Vec3 side = end->position - corner->position;
+    return side - side.dot(direction) * direction;
+  };
+  return std::atan2(seen(to_a).cross(seen(to_b)).norm(), seen(to_a).dot(seen(to_b)));
 }
 
 /// Of contacts at one place, in the order of (face, sub).
-Sense sense_of(std::span<const Contact> contacts, bool triangles, const Vec3& direction) {
-  int positive = 0, negative = 0;
-  double winding = 0;
+Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
+  std::vector<std::pair<const SurfaceParameter*, int>> faces;  // and the sign of each
   for (std::size_t i = 0; i < contacts.size();) {
-    const auto same_face = [&](const Contact& other) {
-      return other.hit.at.face == contacts[i].hit.at.face && other.hit.at.sub == contacts[i].hit.at.sub;
-    };
+    const SurfaceParameter& at = contacts[i].hit.at;
     int least = 1, most = -1;
-    const Contact& first = contacts[i];
-    std::size_t end = i;
-    for (; end < contacts.size() && same_face(contacts[end]); ++end) {
-      least = std::min(least, sign(contacts[end], direction));
-      most = std::max(most, sign(contacts[end], direction));
+    for (; i < contacts.size() && contacts[i].hit.at.face == at.face && contacts[i].hit.at.sub == at.sub; ++i) {
+      least = std::min(least, sign(contacts[i], direction));
+      most = std::max(most, sign(contacts[i], direction));
     }
-    const int sum = std::clamp(least + most, -1, 1);
-    positive += sum > 0;
-    negative += sum < 0;
-    winding += sum * angle(first, triangles, direction);
-    i = end;
+    faces.emplace_back(&at, std::clamp(least + most, -1, 1));
   }
-  if (negative == 0) return positive == 0 ? Sense::touches : Sense::leaves;
-  if (positive == 0) return Sense::enters;
-  const double turns = std::round(winding / (2 * std::numbers::pi));
+  const auto has_sign = [&](int wanted) {
+    return std::any_of(faces.begin(), faces.end(), [&](const auto& face) { return face.second == wanted; });
+  };
+  double turns = has_sign(1) - has_sign(-1);
+  if (has_sign(1) && has_sign(-1)) {
+    for (const auto& [at, sign] : faces) turns += sign * angle(*at, surface, direction);
+    turns = std::round(turns / (2 * std::numbers::pi));
+  }
   return turns > 0 ? Sense::leaves : turns < 0 ? Sense::enters : Sense::touches;
 }
 
 }  // namespace
 
-std::vector<Crossing> crossings(std::vector<Contact> contacts, const ControlMesh& mesh, const Vec3& direction) {
+std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
+  const ControlMesh& mesh = surface.control_mesh();
   const auto place = [](const Contact& c) { return std::tie(c.distance, c.hit.at.face, c.hit.at.sub); };
   std::sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) { return place(a) < place(b); });
 
@@ -123,8 +121,7 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const ControlMesh
     const std::size_t first = group[order[i]];
     together.clear();
     for (; i < order.size() && group[order[i]] == first; ++i) together.push_back(contacts[order[i]]);
-    const bool triangles = mesh.all_triangles();
-    result.push_back({contacts[first].hit, sense_of(together, triangles, direction)});
+    result.push_back({contacts[first].hit, sense_of(together, surface, direction)});
   }
   return result;
 }

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "../schemes/control_mesh.h"
 #include "ray.h"
 
 namespace shaolin {
+
+class LimitSurface;
 
 /// Which way a ray goes on at a hit.
 enum class Sense : std::int8_t {
@@ -44,9 +45,9 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// no farther apart than their uncertainties together and belong to one face, or to faces that share a vertex. Which
 /// way it goes is a matter of winding: around the ray, the faces at the point turn by 2 pi in all if the surface
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). A face
-/// counts pi (of its edge, or of all of its inner points), and of a corner the angle between its tangents; contacts of
+/// counts pi (of its edge, or of all of its inner points), and of a corner the angle between its sides; contacts of
 /// one face with opposite signs (a double root) cancel. The nearest contact stands for all; at equal distances the one
 /// of the lowest face and sub. O(n log n + n f) for contacts of f faces.
-std::vector<Crossing> crossings(std::vector<Contact> contacts, const ControlMesh& mesh, const Vec3& direction);
+std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction);
 
 }  // namespace shaolin

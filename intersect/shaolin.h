@@ -182,7 +182,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
         }
         return false;
       });
-  return crossings(std::move(contacts), surface_.control_mesh(), traversal.direction);
+  return crossings(std::move(contacts), surface_, traversal.direction);
 }
 
 template <Scheme S, template <class> class Finish>
