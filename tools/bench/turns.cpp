@@ -1,0 +1,32 @@
+#include "tools/bench/turns.h"
+
+#include <algorithm>
+
+#include "tools/cli/render_stats.h"
+
+namespace shaolin {
+
+Lap trace_once(const Tracer& tracer, std::span<const Ray> rays, Query query) {
+  Stopwatch stopwatch;
+  Lap lap;
+  if (query == Query::intersect)
+    for (const Ray& ray : rays) lap.hits += tracer.intersect(ray).has_value();
+  else
+    for (const Ray& ray : rays) lap.hits += tracer.occluded(ray);
+  lap.seconds = stopwatch.lap();
+  return lap;
+}
+
+std::vector<Lap> trace_in_turns(std::span<const Tracer* const> tracers, std::span<const Ray> rays, Query query,
+                                std::size_t chunk) {
+  std::vector<Lap> sums(tracers.size());
+  for (std::size_t begin = 0; begin < rays.size(); begin += chunk)
+    for (std::size_t i = 0; i < tracers.size(); ++i) {
+      const Lap lap = trace_once(*tracers[i], rays.subspan(begin, std::min(chunk, rays.size() - begin)), query);
+      sums[i].seconds += lap.seconds;
+      sums[i].hits += lap.hits;
+    }
+  return sums;
+}
+
+}  // namespace shaolin

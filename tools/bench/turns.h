@@ -1,0 +1,31 @@
+#pragma once
+/// Many contenders that are asked the same rays, a few thousand at a time in turns, so that a busy moment of the
+/// machine meets all of them alike.
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tools/bench/contender.h"
+
+namespace shaolin {
+
+enum class Query { intersect, occluded };
+
+/// What rays took, and how many of them hit.
+struct Lap {
+  double seconds = 0;
+  std::size_t hits = 0;
+};
+
+/// On this thread.
+Lap trace_once(const Tracer& tracer, std::span<const Ray> rays, Query query);
+
+/// The rays of a turn: some milliseconds, which is short beside what disturbs a machine, and long beside the time that
+/// it takes to fetch anew from memory what the others drove out of the caches.
+inline constexpr std::size_t chunk_rays = 4096;
+
+/// The first `chunk` rays by each tracer after the other, then the next, until all are asked: the sums by tracer.
+std::vector<Lap> trace_in_turns(std::span<const Tracer* const> tracers, std::span<const Ray> rays, Query query,
+                                std::size_t chunk = chunk_rays);
+
+}  // namespace shaolin
