@@ -1,6 +1,8 @@
 /// `bench`: what it measures by.
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include "tests/catch.h"
 #include "tests/meshes.h"
@@ -10,6 +12,7 @@
 #include "tools/bench/paper_figures.h"
 #include "tools/bench/peak_memory.h"
 #include "tools/bench/silhouette_band.h"
+#include "tools/bench/thread_stopwatch.h"
 #include "tools/cli/csv.h"
 #include "tools/cli/json_text.h"
 #include "tools/validate/quad_oracle.h"
@@ -195,6 +198,18 @@ TEST_CASE("Random rays aim at the scene, ambient rays leave the side that is see
   }
   // The mean by the cosine is 2/3, its deviation sqrt(1/18 / hits).
   CHECK(std::abs(cosines / static_cast<double>(hits) - 2.0 / 3) < 4 * std::sqrt(1.0 / 18 / static_cast<double>(hits)));
+}
+
+TEST_CASE("A thread's stopwatch counts work, and not rest", "[tools][bench]") {
+  ThreadStopwatch stopwatch;
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  CHECK(stopwatch.lap() < 0.02);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+  while (std::chrono::steady_clock::now() < end) {
+  }
+  const double worked = stopwatch.lap();
+  CHECK(worked > 0.005);  // others may have had the rest
+  CHECK(worked < 0.25);
 }
 
 TEST_CASE("Peak memory includes what is freed again", "[tools][bench]") {

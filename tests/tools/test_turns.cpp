@@ -34,7 +34,7 @@ Subject small_subject(const std::string& model) {
 
 }  // namespace
 
-TEST_CASE("Tracers take turns chunk by chunk, and each is asked every ray once", "[tools][bench]") {
+TEST_CASE("Tracers take turns chunk by chunk, each after the chunk before, which does not count", "[tools][bench]") {
   std::vector<std::pair<char, int>> log;
   const Witness a('a', log), b('b', log);
   const std::vector<const Tracer*> both{&a, &b};
@@ -42,8 +42,12 @@ TEST_CASE("Tracers take turns chunk by chunk, and each is asked every ray once",
   for (std::size_t i = 0; i < rays.size(); ++i) rays[i].tmin = static_cast<double>(i);
   const Query query = GENERATE(Query::intersect, Query::occluded);
   const std::vector<Lap> laps = trace_in_turns(both, rays, query, 2);
-  CHECK(log == std::vector<std::pair<char, int>>{
-                   {'a', 0}, {'a', 1}, {'b', 0}, {'b', 1}, {'a', 2}, {'a', 3}, {'b', 2}, {'b', 3}, {'a', 4}, {'b', 4}});
+  std::string asked;
+  for (const auto& [name, number] : log) asked += name + std::to_string(number) + ' ';
+  CHECK(asked ==
+        "a4 a0 a1 b4 b0 b1 "
+        "a0 a1 a2 a3 b0 b1 b2 b3 "
+        "a2 a3 a4 b2 b3 b4 ");
   REQUIRE(laps.size() == 2);
   for (const Lap& lap : laps) {
     CHECK(lap.hits == 3);

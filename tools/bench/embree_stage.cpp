@@ -4,7 +4,7 @@
 #include "schemes/builtin.h"
 #include "schemes/errors.h"
 #include "tools/bench/embree_subdivision.h"
-#include "tools/cli/render_stats.h"
+#include "tools/bench/thread_stopwatch.h"
 
 namespace shaolin {
 namespace {
@@ -36,7 +36,7 @@ EmbreeHandle<RTCSceneTy> EmbreeStage::scene_of(const EmbreeGeometry& geometry) c
 }
 
 EmbreeStage::Part EmbreeStage::make_triangles(const LoadedModel& model, int level) {
-  Stopwatch stopwatch;
+  ThreadStopwatch stopwatch;
   EmbreeTriangles triangles;
   Part part;
   with_scheme_of(model, [&](const auto& scheme) {

@@ -20,7 +20,7 @@ struct LevelCounts {
   double mean() const;  ///< 0 without hits
 };
 
-/// What is timed, on one thread, each by itself.
+/// What is timed, each by itself: processor time of one thread.
 enum class Phase {
   tessellation,  ///< of Embree's triangles alone: making them, which is this library's work
   build,         ///< from meshes (of Embree's triangles: from these) in memory to a scene, without what waits for rays

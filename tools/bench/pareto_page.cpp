@@ -137,8 +137,9 @@ void write_scene(std::ostream& out, const ParetoResult& result) {
 
 void write_pareto_page(std::ostream& out, const std::vector<ParetoResult>& results, const ParetoOptions& options) {
   out << html_head("shaolin bench pareto", "Time and memory against error") << "<p>" << options.size.width << "x"
-      << options.size.height << " pixels, one thread; " << options.measure.runs << " runs, warm rays in turns of "
-      << chunk_rays << ", medians with bars from least to most; minSize " << options.min_size
+      << options.size.height << " pixels, one thread's processor time; " << options.measure.runs
+      << " runs, warm rays in turns of " << chunk_rays << ", medians with bars from least to most; minSize "
+      << options.min_size
       << " pixels. Points carry their epsilon or level. Left and below is better. The exact method is what errors are "
          "measured from: its line is its time, with its own error at the end. Files: <a href=pareto.json>all in "
          "JSON</a>, <a href=times.csv>times</a>, <a href=errors.csv>errors</a>, <a href=exact.csv>the exact method's "

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "tools/bench/peak_memory.h"
+#include "tools/bench/thread_stopwatch.h"
 #include "tools/bench/turns.h"
-#include "tools/cli/render_stats.h"
 
 namespace shaolin {
 namespace {
@@ -44,7 +44,7 @@ void add(Measurement& result, Phase phase, double seconds) {
 /// All rays once, of which the first image is timed.
 std::unique_ptr<Tracer> time_cold(const Subject& subject, Measurement& result) {
   const PeakMemory memory;
-  Stopwatch stopwatch;
+  ThreadStopwatch stopwatch;
   auto tracer = make_tracer(result.contender, subject.stage);
   const double made = stopwatch.lap(), tessellation = tracer->tessellation_seconds();
   if (result.contender.kind == ContenderKind::triangles) add(result, Phase::tessellation, tessellation);

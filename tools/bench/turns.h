@@ -20,11 +20,12 @@ struct Lap {
 /// On this thread.
 Lap trace_once(const Tracer& tracer, std::span<const Ray> rays, Query query);
 
-/// The rays of a turn: some milliseconds, which is short beside what disturbs a machine, and long beside the time that
-/// it takes to fetch anew from memory what the others drove out of the caches.
-inline constexpr std::size_t chunk_rays = 4096;
+/// The rays of a turn: some ten milliseconds. By then caches hold again what they would if there were no turns.
+inline constexpr std::size_t chunk_rays = 16384;
 
-/// The first `chunk` rays by each tracer after the other, then the next, until all are asked: the sums by tracer.
+/// The first `chunk` rays by each tracer after the other, then the next, until all are asked: the sums by tracer. A
+/// turn begins with the chunk before (the first: with the last), which does not count: others have used the caches
+/// since, and a tracer whose data are large would pay most.
 std::vector<Lap> trace_in_turns(std::span<const Tracer* const> tracers, std::span<const Ray> rays, Query query,
                                 std::size_t chunk = chunk_rays);
 
