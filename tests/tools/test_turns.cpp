@@ -41,7 +41,8 @@ TEST_CASE("Tracers take turns chunk by chunk, each after the chunk before, which
   std::vector<Ray> rays(5);
   for (std::size_t i = 0; i < rays.size(); ++i) rays[i].tmin = static_cast<double>(i);
   const Query query = GENERATE(Query::intersect, Query::occluded);
-  const std::vector<Lap> laps = trace_in_turns(both, rays, query, 2);
+  const std::size_t chunk = GENERATE(std::size_t{2}, chunk_rays);  // of few rays a quarter, rounded up
+  const std::vector<Lap> laps = trace_in_turns(both, rays, query, chunk);
   std::string asked;
   for (const auto& [name, number] : log) asked += name + std::to_string(number) + ' ';
   CHECK(asked ==
@@ -53,7 +54,7 @@ TEST_CASE("Tracers take turns chunk by chunk, each after the chunk before, which
     CHECK(lap.hits == 3);
     CHECK(lap.seconds > 0);
   }
-  CHECK(trace_in_turns(both, {}, query, 2).at(1).hits == 0);
+  CHECK(trace_in_turns(both, {}, query, chunk).at(1).hits == 0);
 }
 
 TEST_CASE("Turns answer as the whole does, whatever the chunk", "[tools][bench]") {

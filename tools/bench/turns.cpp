@@ -19,6 +19,7 @@ Lap trace_once(const Tracer& tracer, std::span<const Ray> rays, Query query) {
 
 std::vector<Lap> trace_in_turns(std::span<const Tracer* const> tracers, std::span<const Ray> rays, Query query,
                                 std::size_t chunk) {
+  chunk = std::min(chunk, (rays.size() + least_turns - 1) / least_turns);
   std::vector<std::span<const Ray>> chunks;
   for (std::size_t begin = 0; begin < rays.size(); begin += chunk)
     chunks.push_back(rays.subspan(begin, std::min(chunk, rays.size() - begin)));
