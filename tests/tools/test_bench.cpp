@@ -1,7 +1,8 @@
 /// `bench`: what it measures by.
+#include <chrono>
 #include <cmath>
 #include <numbers>
-#include <sstream>
+#include <thread>
 
 #include "tests/catch.h"
 #include "tests/meshes.h"
@@ -10,8 +11,8 @@
 #include "tools/bench/measure.h"
 #include "tools/bench/paper_figures.h"
 #include "tools/bench/peak_memory.h"
-#include "tools/bench/plot.h"
 #include "tools/bench/silhouette_band.h"
+#include "tools/bench/thread_stopwatch.h"
 #include "tools/cli/csv.h"
 #include "tools/cli/json_text.h"
 #include "tools/validate/quad_oracle.h"
@@ -132,6 +133,15 @@ TEST_CASE("Answers that are wrong are found, in the band and outside", "[tools][
   CHECK(figures.normal.max == Approx(0.25));
 }
 
+TEST_CASE("Rays that one of two methods stops are lost or ghosts", "[tools][bench]") {
+  const HitFigures figures = compare(Occlusions{1, 1, 1, 0, 0, 1}, Occlusions{1, 0, 0, 1, 0, 1});
+  CHECK(figures.rays == 6);
+  CHECK(figures.hits == 4);
+  CHECK(figures.lost == 2);
+  CHECK(figures.ghosts == 1);
+  CHECK(figures.own_hits() == 3);
+}
+
 TEST_CASE("Quantiles and spreads", "[tools][bench]") {
   std::vector<double> values;
   for (int i = 100; i >= 0; --i) values.push_back(i);
@@ -190,6 +200,18 @@ TEST_CASE("Random rays aim at the scene, ambient rays leave the side that is see
   CHECK(std::abs(cosines / static_cast<double>(hits) - 2.0 / 3) < 4 * std::sqrt(1.0 / 18 / static_cast<double>(hits)));
 }
 
+TEST_CASE("A thread's stopwatch counts work, and not rest", "[tools][bench]") {
+  ThreadStopwatch stopwatch;
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  CHECK(stopwatch.lap() < 0.02);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+  while (std::chrono::steady_clock::now() < end) {
+  }
+  const double worked = stopwatch.lap();
+  CHECK(worked > 0.005);  // others may have had the rest
+  CHECK(worked < 0.25);
+}
+
 TEST_CASE("Peak memory includes what is freed again", "[tools][bench]") {
   const std::size_t size = std::size_t{64} << 20;
   const PeakMemory memory;
@@ -236,24 +258,6 @@ TEST_CASE("Refinement in quadruple precision has more digits than double", "[too
     CAPTURE(n);
     CHECK(static_cast<double>(abs(limit.z() - (1 - n * weight + weight))) < 1e-25);
   }
-}
-
-TEST_CASE("A plot holds what is positive, and a legend", "[tools][bench]") {
-  Plot plot{.x_label = "x < y", .y_label = "time"};
-  plot.series.push_back({.name = "a", .color = "#111", .points = {{1, 2, 1, 3, "p"}, {0, 1}, {10, 20}}});
-  plot.series.push_back({.name = "b", .color = "#222", .points = {{1, 5, 0, 0, "line"}}, .level_line = true});
-  std::ostringstream out;
-  write_svg(out, plot);
-  const std::string svg = out.str();
-  const auto count = [&](const std::string& what) {
-    std::size_t found = 0;
-    for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++found;
-    return found;
-  };
-  CHECK(count("<circle") == 2);
-  CHECK(count(">line<") == 1);
-  CHECK(count("x &lt; y") == 1);
-  CHECK(count("nan") + count("inf") == 0);
 }
 
 }  // namespace shaolin::test

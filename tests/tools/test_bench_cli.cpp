@@ -39,9 +39,20 @@ double sum_of(const Table& table, std::size_t row, const std::string& prefix) {
   return sum;
 }
 
-/// What must be true of every measurement.
-void check_errors(const Table& errors) {
-  for (std::size_t i = 0; i < errors.rows.size(); ++i) {
+/// Rows of these rays.
+std::vector<std::size_t> rows_of(const Table& errors, const std::string& rays) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < errors.rows.size(); ++i)
+    if (errors.text(i, "of") == rays) rows.push_back(i);
+  return rows;
+}
+
+bool is_by_triangles(const std::string& method) { return method == "Uniform" || method == "Embree triangles"; }
+
+/// What must be true of every measurement, by rays that tell distances.
+void check_errors(const Table& errors, const std::string& rays = "picture") {
+  std::size_t before = 0;
+  for (const std::size_t i : rows_of(errors, rays)) {
     CAPTURE(errors.rows[i]);
     const std::string method = errors.text(i, "method");
     CHECK(errors.number(i, "distance_median") <= errors.number(i, "distance_p99"));
@@ -52,12 +63,13 @@ void check_errors(const Table& errors) {
     if (method == "ShaoLin")
       for (const char* column : {"lost_outside", "ghosts_outside"}) CHECK(errors.number(i, column) == 0);
     // Chords of a smooth surface: the error falls to a quarter with each level.
-    if (method.starts_with("Uniform") && errors.text(i, "parameter") != "1") {
-      CHECK(errors.text(i - 1, "method") == method);
-      const double factor = errors.number(i - 1, "distance_median") / errors.number(i, "distance_median");
+    if (is_by_triangles(method) && errors.text(i, "parameter") != "1") {
+      CHECK(errors.text(before, "method") == method);
+      const double factor = errors.number(before, "distance_median") / errors.number(i, "distance_median");
       CHECK(factor > 2.5);
       CHECK(factor < 6);
     }
+    before = i;
   }
 }
 
@@ -70,6 +82,7 @@ void check_times(const Table& times, std::size_t row, int runs) {
     CHECK(times.number(row, phase + "_least") <= times.number(row, phase));
     CHECK(times.number(row, phase) <= times.number(row, phase + "_most"));
   }
+  CHECK(times.text(row, "tessellation").empty() == (times.text(row, "method") != "Embree triangles"));
   CHECK(times.number(row, "build_least") < times.number(row, "cold_least"));
   CHECK(times.number(row, "bytes") > 0);
   CHECK(times.number(row, "estimated") == 0);
@@ -98,7 +111,7 @@ TEST_CASE("bench paper counts every hit once, and its files can be read", "[tool
       CHECK(levels.number(i, "mean_level") <= before);
       before = levels.number(i, "mean_level");
     }
-    if (levels.text(i, "method").starts_with("Uniform"))
+    if (is_by_triangles(levels.text(i, "method")))
       CHECK(levels.number(i, "mean_level") == levels.number(i, "parameter"));
     check_times(times, i, 2);
     for (const std::string phase : {"random", "ambient"}) CHECK(times.text(i, phase).empty());
@@ -136,7 +149,7 @@ TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench
 TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][bench]") {
   const Folder folder;
   const Outcome outcome =
-      folder.run({"bench", "pareto", data_file("torus.obj"), data_file("loop_torus.obj"), "--size", "40x40", "--runs",
+      folder.run({"bench", "pareto", data_file("torus.obj"), data_file("loop_torus.obj"), "--size", "32x32", "--runs",
                   "2", "--level", "4", "--exact-hits", "20", "--report", folder / "out"});
   CAPTURE(outcome.text);
   REQUIRE(outcome.status == 0);
@@ -144,9 +157,16 @@ TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][b
         std::string::npos);
   const Table errors(folder / "out/errors.csv"), times(folder / "out/times.csv"), exact(folder / "out/exact.csv");
   const std::size_t without_subdivision = 1 + 2 * 9 + 2 * 4;
-  CHECK(errors.rows.size() == 2 * without_subdivision + 4);
-  check_errors(errors);
-  REQUIRE(times.rows.size() == errors.rows.size());
+  REQUIRE(times.rows.size() == 2 * without_subdivision + 4);
+  REQUIRE(errors.rows.size() == 3 * times.rows.size());
+  check_errors(errors, "picture");
+  check_errors(errors, "random");
+  for (const std::size_t i : rows_of(errors, "ambient")) {
+    CHECK(errors.number(i, "rays") > 150);
+    CHECK(errors.number(i, "lost") <= errors.number(i, "hits"));
+    CHECK(errors.text(i, "distance_max").empty());
+    if (errors.text(i, "method") == "ShaoLin exact") CHECK(errors.number(i, "lost") + errors.number(i, "ghosts") == 0);
+  }
   double most_peak = 0;
   for (std::size_t i = 0; i < times.rows.size(); ++i) {
     CAPTURE(times.rows[i]);
@@ -167,7 +187,8 @@ TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][b
   }
 
   const std::string page = read_file(folder / "out/pareto.html");
-  for (const char* text : {"99th percentile", "<h2>torus", "<h2>loop_torus", "memory against", "Embree subdivision"})
+  for (const char* text : {"99th percentile", "<h2>torus", "<h2>loop_torus", "memory against", "Embree subdivision",
+                           "Random rays", "Rays of ambient occlusion", "<td>loop_torus<td>Embree triangles, level 3"})
     CHECK(page.find(text) != std::string::npos);
   CHECK(page.find("nan") == std::string::npos);
   const Json json = read_json(folder / "out/pareto.json");
@@ -175,16 +196,76 @@ TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][b
   std::size_t row = 0;
   for (const Json& scene : json.at("scenes")) {
     CHECK(scene.contains("embree_subdivision_left_out") == (scene.at("scene") == "loop_torus"));
-    CHECK(scene.at("rays").at("primary") == 1600);
-    CHECK(scene.at("rays").at("random") == 1600);
+    CHECK(scene.at("rays").at("primary") == 1024);
+    CHECK(scene.at("rays").at("random") == 1024);
     for (const Json& one : scene.at("measurements")) {
       CHECK(one.at("method") == times.text(row, "method"));
       CHECK(one.at("seconds").at("cold").at("median") == times.number(row, "cold"));
-      CHECK(one.at("errors").at("distance").at("p99") == errors.number(row, "distance_p99"));
+      std::size_t error_row = 3 * row;
+      for (const char* rays : {"picture", "random", "ambient"}) {
+        const Json& figures = one.at("errors").at(rays);
+        CHECK(errors.text(error_row, "of") == rays);
+        for (const char* count : {"rays", "hits", "lost", "ghosts"})
+          CHECK(figures.at(count) == errors.number(error_row, count));
+        if (rays != std::string("ambient"))
+          for (const char* quantile : {"median", "p99", "max"}) {
+            CHECK(figures.at("distance").at(quantile) == errors.number(error_row, std::string("distance_") + quantile));
+            CHECK(figures.at("normal").at(quantile) == errors.number(error_row, std::string("normal_") + quantile));
+          }
+        ++error_row;
+      }
+      CHECK(one.at("seconds").contains("tessellation") == (one.at("method") == "Embree triangles"));
+      for (const auto& [phase, seconds] : one.at("seconds").items()) CHECK(seconds.at("runs").size() == 2);
       ++row;
     }
+    // What the exact method takes over Embree: of two runs the median is the mean.
+    const Json& exact_seconds = scene.at("measurements").at(0).at("seconds");
+    const bool is_loop = scene.at("scene") == "loop_torus";
+    CHECK(scene.at("exact_over_peers").size() == (is_loop ? 4 : 8));
+    for (const Json& ratios : scene.at("exact_over_peers")) {
+      const Json& all = scene.at("measurements");
+      const auto peer = std::find_if(all.begin(), all.end(), [&](const Json& one) {
+        return one.at("method") == ratios.at("method") && one.value("level", 0) == ratios.at("level");
+      });
+      REQUIRE(peer != all.end());
+      for (const char* phase : {"cold", "camera", "random", "shadow", "ambient"}) {
+        double sum = 0;
+        for (const std::size_t run : {0, 1})
+          sum += exact_seconds.at(phase).at("runs").at(run).get<double>() /
+                 peer->at("seconds").at(phase).at("runs").at(run).get<double>();
+        CHECK(ratios.at(phase).at("median").get<double>() == Approx(sum / 2));
+      }
+      CHECK(ratios.contains("cold given triangles") == (ratios.at("method") == "Embree triangles"));
+      CHECK(ratios.at("memory").get<double>() ==
+            Approx(all.at(0).at("bytes").get<double>() / peer->at("bytes").get<double>()));
+    }
+    // The terminal ends with the bars, of which level 5 was not run.
+    const std::string scheme = is_loop ? "Embree triangles" : "Embree subdivision";
+    CHECK(outcome.text.find(scheme + ", level 3 ", outcome.text.find("\n| scene")) != std::string::npos);
+    CHECK(outcome.text.find(scheme + ", level 4 ", outcome.text.find("\n| scene")) == std::string::npos);
   }
   CHECK(row == times.rows.size());
+}
+
+TEST_CASE("bench pareto measures the methods that it is asked for, and the exact one", "[tools][cli][bench]") {
+  const Folder folder;
+  const auto methods_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{
+        "bench",   "pareto", data_file("torus.obj"), "--size", "16x16",    "--runs",      "1",
+        "--level", "1",      "--exact-hits",         "0",      "--report", folder / "out"};
+    words.insert(words.begin() + 2, options.begin(), options.end());
+    const Outcome outcome = folder.run(words);
+    CAPTURE(outcome.text);
+    REQUIRE(outcome.status == 0);
+    const Table times(folder / "out/times.csv");
+    std::set<std::string> methods;
+    for (std::size_t i = 0; i < times.rows.size(); ++i) methods.insert(times.text(i, "method"));
+    return methods;
+  };
+  CHECK(methods_of({"--methods", "triangles"}) == std::set<std::string>{"ShaoLin exact", "Embree triangles"});
+  CHECK(methods_of({"--methods", "subdivision,uniform", "--methods", "exact"}) ==
+        std::set<std::string>{"ShaoLin exact", "Embree subdivision", "Uniform"});
+  CHECK(methods_of({"--methods", "chord,a3"}) == std::set<std::string>{"ShaoLin exact", "ShaoLin", "A3"});
 }
 
 TEST_CASE("bench scaling tells what each size costs", "[tools][cli][bench]") {
@@ -258,6 +339,9 @@ TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
            {"bench", "pareto", "--report", report},
            {"bench", "pareto", torus},
            {"bench", "pareto", torus, "--report", report, "--scheme", "doo-sabin"},
+           {"bench", "pareto", torus, "--report", report, "--methods", "embree"},
+           {"bench", "pareto", torus, "--report", report, "--methods", "exact,dragon"},
+           {"bench", "pareto", torus, "--report", report, "--methods"},
            {"bench", "pareto", torus, "--report", report, "--unit", "0"},
            {"bench", "pareto", torus, "--report", report, "--unit", "nan"},
            {"bench", "scaling"},

@@ -32,7 +32,8 @@ void add_measure_options(CLI::App& app, MeasureOptions& options, int& most_level
       ->capture_default_str();
   app.add_option_function<std::size_t>(
          "--memory", [&options](std::size_t mebibytes) { options.most_bytes = mebibytes << 20; },
-         "What uniform triangles may occupy; levels that would need more are estimated, not run")
+         "What triangles may occupy: levels that would need more are estimated, not run; also what methods may "
+         "occupy together that are timed in turns")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->type_name("MiB")
       ->default_str("1024");
@@ -56,6 +57,17 @@ void add_chord_options(CLI::App& app, std::optional<double>& unit, double& min_s
 
 void add_report_option(CLI::App& app, std::filesystem::path& report) {
   app.add_option("--report", report, "Folder for the page, CSV files and pictures")->required()->type_name("DIR");
+}
+
+void add_methods_option(CLI::App& app, std::vector<std::string>& methods) {
+  std::vector<std::string> names;
+  for (const ContenderKind kind : contender_kinds) names.emplace_back(name_of(kind));
+  app.add_option("--methods", methods,
+                 "Some of the methods, with commas in between, in place of all; the exact one always is one of them")
+      ->check(CLI::IsMember(names))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
 }
 
 void add_paper(CLI::App& app, Command& command) {
@@ -89,6 +101,7 @@ void add_pareto(CLI::App& app, Command& command) {
                   "Hits of the exact method that are held against the control mesh, refined in quadruple precision")
       ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
       ->capture_default_str();
+  add_methods_option(*sub, options->methods);
   add_measure_options(*sub, options->measure, options->most_level, options->threads);
   sub->callback([options, &command] { command = [options] { return bench_pareto(*options); }; });
 }

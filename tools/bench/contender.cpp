@@ -30,6 +30,7 @@ class EmbreeTracer final : public Tracer {
   }
   bool occluded(const Ray& ray) const override { return scene_.occluded(ray); }
   std::size_t bytes() const override { return scene_.bytes(); }
+  double tessellation_seconds() const override { return scene_.tessellation_seconds(); }
 
  private:
   EmbreeStage scene_;
@@ -43,6 +44,12 @@ std::optional<Answer> answer_of(const std::optional<Hit>& hit) {
   return Answer{hit->t, hit->sample.normal, hit->level};
 }
 
+const char* name_of(ContenderKind kind) {
+  constexpr std::array names{"exact", "subdivision", "triangles", "uniform", "chord", "a3"};
+  static_assert(names.size() == contender_kinds.size());
+  return names[static_cast<std::size_t>(kind)];
+}
+
 std::string Contender::method() const {
   switch (kind) {
     case ContenderKind::chord:
@@ -51,8 +58,8 @@ std::string Contender::method() const {
       return "A3";
     case ContenderKind::uniform:
       return "Uniform";
-    case ContenderKind::embree:
-      return "Uniform by Embree";
+    case ContenderKind::triangles:
+      return "Embree triangles";
     case ContenderKind::subdivision:
       return "Embree subdivision";
     case ContenderKind::exact:
@@ -79,7 +86,7 @@ SceneOptions scene_options(const Contender& contender) {
 }
 
 std::unique_ptr<Tracer> make_tracer(const Contender& contender, const Stage& stage) {
-  if (contender.kind == ContenderKind::embree)
+  if (contender.kind == ContenderKind::triangles)
     return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::triangles);
   if (contender.kind == ContenderKind::subdivision)
     return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::subdivision);

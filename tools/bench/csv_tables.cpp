@@ -6,6 +6,14 @@
 namespace shaolin {
 namespace {
 
+void begin_row(CsvWriter& writer, const std::string& scene, const Contender& contender) {
+  writer.field(scene).field(contender.method());
+  if (contender.kind == ContenderKind::exact)
+    writer.empty();
+  else
+    writer.field(digits(contender.parameter(), 6));
+}
+
 /// Calls write(writer, measurement) for each row, after its first three fields.
 template <class Write>
 void write_table(const std::filesystem::path& file, const std::string& columns,
@@ -13,11 +21,7 @@ void write_table(const std::filesystem::path& file, const std::string& columns,
   CsvWriter writer(file, "scene,method,parameter," + columns);
   for (const NamedMeasurements& scene : scenes)
     for (const Measurement& one : *scene.measurements) {
-      writer.field(scene.scene).field(one.contender.method());
-      if (one.contender.kind == ContenderKind::exact)
-        writer.empty();
-      else
-        writer.field(digits(one.contender.parameter(), 6));
+      begin_row(writer, scene.scene, one.contender);
       write(writer, one);
       writer.end_row();
     }
@@ -68,29 +72,38 @@ void write_time_table(const std::filesystem::path& file, const std::vector<Named
 }
 
 void write_error_table(const std::filesystem::path& file, const std::vector<NamedMeasurements>& scenes) {
-  write_table(
-      file,
-      "rays,hits,distance_median,distance_p99,distance_max,normal_median,normal_p99,normal_max,lost,ghosts,"
-      "farther,nearer,lost_outside,ghosts_outside",
-      scenes, [](CsvWriter& writer, const Measurement& one) {
-        if (one.estimated) {
-          writer.empty(14);
-          return;
-        }
-        const ErrorFigures& errors = one.errors;
-        count(writer, errors.rays);
-        count(writer, errors.hits);
-        for (const Quantiles* const of : {&errors.distance, &errors.normal})
-          writer.field(of->median).field(of->p99).field(of->max);
-        count(writer, errors.lost);
-        count(writer, errors.ghosts);
-        if (!one.contender.is_adaptive()) {
-          writer.empty(4);
-          return;
-        }
-        for (const std::size_t value : {errors.farther, errors.nearer, errors.lost_outside, errors.ghosts_outside})
-          count(writer, value);
-      });
+  CsvWriter writer(file,
+                   "scene,method,parameter,of,rays,hits,lost,ghosts,distance_median,distance_p99,distance_max,"
+                   "normal_median,normal_p99,normal_max,farther,nearer,lost_outside,ghosts_outside");
+  const auto begin = [&](const NamedMeasurements& scene, const Contender& contender, const char* of,
+                         const HitFigures& figures) {
+    begin_row(writer, scene.scene, contender);
+    writer.field(of);
+    for (const std::size_t value : {figures.rays, figures.hits, figures.lost, figures.ghosts}) count(writer, value);
+  };
+  const auto write = [&](const NamedMeasurements& scene, const Contender& contender, const char* of,
+                         const ErrorFigures& figures) {
+    if (figures.rays == 0) return;
+    begin(scene, contender, of, figures);
+    for (const Quantiles* const quantiles : {&figures.distance, &figures.normal})
+      writer.field(quantiles->median).field(quantiles->p99).field(quantiles->max);
+    if (contender.is_adaptive())
+      for (const std::size_t value : {figures.farther, figures.nearer, figures.lost_outside, figures.ghosts_outside})
+        count(writer, value);
+    else
+      writer.empty(4);
+    writer.end_row();
+  };
+  for (const NamedMeasurements& scene : scenes)
+    for (const Measurement& one : *scene.measurements) {
+      write(scene, one.contender, "picture", one.errors);
+      write(scene, one.contender, "random", one.random_errors);
+      if (one.ambient_errors.rays == 0) continue;
+      begin(scene, one.contender, "ambient", one.ambient_errors);
+      writer.empty(10);
+      writer.end_row();
+    }
+  writer.commit();
 }
 
 }  // namespace shaolin

@@ -4,6 +4,7 @@
 #include "schemes/builtin.h"
 #include "schemes/errors.h"
 #include "tools/bench/embree_subdivision.h"
+#include "tools/bench/thread_stopwatch.h"
 
 namespace shaolin {
 namespace {
@@ -34,7 +35,8 @@ EmbreeHandle<RTCSceneTy> EmbreeStage::scene_of(const EmbreeGeometry& geometry) c
   return scene;
 }
 
-EmbreeStage::Part EmbreeStage::make_triangles(const LoadedModel& model, int level) const {
+EmbreeStage::Part EmbreeStage::make_triangles(const LoadedModel& model, int level) {
+  ThreadStopwatch stopwatch;
   EmbreeTriangles triangles;
   Part part;
   with_scheme_of(model, [&](const auto& scheme) {
@@ -55,6 +57,7 @@ EmbreeStage::Part EmbreeStage::make_triangles(const LoadedModel& model, int leve
         part.normals.push_back(normals);
       }
   });
+  tessellation_seconds_ += stopwatch.lap();
   part.scene = scene_of(embree_geometry(device_.get(), triangles));
   return part;
 }

@@ -32,6 +32,9 @@ class EmbreeStage {
   /// What Embree holds, and the normals.
   std::size_t bytes() const;
 
+  /// Of the constructor's time: making the triangles, from meshes to points, corners and normals as Embree takes them.
+  double tessellation_seconds() const { return tessellation_seconds_; }
+
  private:
   using Normals = std::vector<std::array<Eigen::Vector3f, 3>>;  ///< of a triangle's corners
 
@@ -44,7 +47,7 @@ class EmbreeStage {
     Eigen::Matrix3d normals;  ///< from the object's space to the world's
   };
 
-  Part make_triangles(const LoadedModel& model, int level) const;
+  Part make_triangles(const LoadedModel& model, int level);
   Part make_subdivision(const LoadedModel& model, int level) const;
   EmbreeHandle<RTCSceneTy> scene_of(const EmbreeGeometry& geometry) const;
 
@@ -53,6 +56,7 @@ class EmbreeStage {
   std::vector<Part> parts_;
   std::vector<Place> places_;  ///< by instance
   EmbreeHandle<RTCSceneTy> scene_;
+  double tessellation_seconds_ = 0;
 };
 
 }  // namespace shaolin

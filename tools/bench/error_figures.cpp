@@ -69,6 +69,16 @@ void ErrorFigures::add_counts(const ErrorFigures& other) {
     if (outside.size() < most_listed) outside.push_back(ray);
 }
 
+HitFigures compare(const Occlusions& expected, const Occlusions& answers) {
+  HitFigures figures{.rays = expected.size()};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    figures.hits += expected[i] != 0;
+    figures.lost += expected[i] > answers[i];
+    figures.ghosts += expected[i] < answers[i];
+  }
+  return figures;
+}
+
 ErrorFigures compare(const Contender& contender, const Scene& exact, std::span<const Ray> rays,
                      std::span<const std::optional<Answer>> expected, std::span<const std::optional<Answer>> answers) {
   std::vector<Judged> judged(rays.size());
@@ -77,7 +87,8 @@ ErrorFigures compare(const Contender& contender, const Scene& exact, std::span<c
       judged[i] = judge(contender, exact, rays[i], expected[i], answers[i]);
   });
 
-  ErrorFigures figures{.rays = rays.size()};
+  ErrorFigures figures;
+  figures.rays = rays.size();
   std::vector<double> distances, angles;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Judged& one = judged[i];

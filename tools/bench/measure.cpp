@@ -1,17 +1,12 @@
 #include "tools/bench/measure.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 
-#include "tools/bench/peak_memory.h"
+#include "tools/bench/timed_run.h"
 #include "tools/cli/framing.h"
-#include "tools/cli/render_stats.h"
 #include "tools/cli/threads.h"
 
 namespace shaolin {
@@ -32,119 +27,65 @@ LevelCounts count_levels(const Answers& answers) {
   return counts;
 }
 
-std::size_t count_hits(const Tracer& tracer, std::span<const Ray> rays) {
-  return static_cast<std::size_t>(
-      std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return tracer.intersect(ray).has_value(); }));
-}
-
-std::size_t count_occluded(const Tracer& tracer, std::span<const Ray> rays) {
-  return static_cast<std::size_t>(
-      std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return tracer.occluded(ray); }));
-}
-
-std::size_t count_disagreements(const Tracer& tracer, std::span<const Ray> rays, const Answers& answers) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, rays.size(), 1024), std::size_t{0},
-      [&](const auto& range, std::size_t count) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-          count += tracer.occluded(rays[i]) != answers[i].has_value();
-        return count;
-      },
-      std::plus<>());
-}
-
 /// A wrong mesh, transform or scheme is wrong by far more than this: outlines by a few in a hundred pixels, depths by a
 /// few thousandths of the scene. Coarse triangles are off by four times as much for each level less than three.
 /// Of ambient occlusion nothing is asked: its rays start in the hollows between coarse triangles and the surface.
-std::string fault_of(const Measurement& measurement, double diagonal) {
-  const Contender& contender = measurement.contender;
-  const ErrorFigures& errors = measurement.errors;
+std::string fault_of(const Contender& contender, const ErrorFigures& errors, double diagonal) {
   // Chords are as coarse as epsilon and the size of pixels ask for.
   const double coarse = contender.is_adaptive()                         ? 4
                         : contender.is_uniform() && contender.level < 3 ? std::pow(4.0, 3 - contender.level)
                                                                         : 1;
-  const auto too_many = [&](std::size_t wrong, std::size_t hits) {
-    return static_cast<double>(wrong) > 0.03 * coarse * static_cast<double>(hits) + 4;
-  };
-  if (too_many(errors.lost + errors.ghosts, errors.hits))
+  if (static_cast<double>(errors.lost + errors.ghosts) > 0.03 * coarse * static_cast<double>(errors.hits) + 4)
     return std::to_string(errors.lost) + " lost and " + std::to_string(errors.ghosts) + " ghost hits of " +
            std::to_string(errors.hits);
   if (errors.distance.median > 2e-3 * coarse * diagonal)
     return "a median error of " + std::to_string(errors.distance.median) + " along the ray";
-  if (too_many(measurement.random_differs, measurement.random_hits))
-    return std::to_string(measurement.random_differs) + " of the random rays hit or miss otherwise, " +
-           std::to_string(measurement.random_hits) + " hit";
   return {};
 }
 
 Measurement answer(const Subject& subject, const Contender& contender) {
   Measurement result{.contender = contender};
+  const Workload& work = subject.work;
   const auto tracer = make_tracer(contender, subject.stage);
-  const Answers primary = trace(subject.work.primary, *tracer), shadow = trace(subject.work.shadow, *tracer);
-  const Answers random = trace(subject.work.random, *tracer);
-  for (std::size_t i = 0; i < random.size(); ++i) {
-    result.random_hits += random[i].has_value();
-    result.random_differs += random[i].has_value() != subject.random[i].has_value();
-  }
-  result.ambient_hits = count_occluded(*tracer, subject.work.ambient);
+  const Answers primary = trace(work.primary, *tracer), shadow = trace(work.shadow, *tracer);
+  const Answers random = trace(work.random, *tracer);
+  result.ambient_errors = compare(subject.ambient, occlusions(work.ambient, *tracer));
   result.bytes = tracer->bytes();
   result.primary = count_levels(primary);
   result.shadow = count_levels(shadow);
-  result.occluded_differs = count_disagreements(*tracer, subject.work.shadow, shadow);
+  const HitFigures occluded = compare(occlusions_of(shadow), occlusions(work.shadow, *tracer));
+  result.occluded_differs = occluded.lost + occluded.ghosts;
 
-  std::vector<Ray> rays = subject.work.primary;
-  rays.insert(rays.end(), subject.work.shadow.begin(), subject.work.shadow.end());
+  std::vector<Ray> rays = work.primary;
+  rays.insert(rays.end(), work.shadow.begin(), work.shadow.end());
   const auto joined = [](Answers first, const Answers& second) {
     first.insert(first.end(), second.begin(), second.end());
     return first;
   };
   result.errors =
       compare(contender, subject.exact, rays, joined(subject.primary, subject.shadow), joined(primary, shadow));
-  result.fault = fault_of(result, subject.diagonal);
+  result.random_errors = compare(contender, subject.exact, work.random, subject.random, random);
+  result.fault = fault_of(contender, result.errors, subject.diagonal);
+  if (result.fault.empty())
+    if (const std::string fault = fault_of(contender, result.random_errors, subject.diagonal); !fault.empty())
+      result.fault = "random rays: " + fault;
   return result;
 }
 
-/// Throws std::runtime_error if a timed run's hits are not those that were verified.
-void expect_hits(const Measurement& verified, std::size_t hits, std::size_t expected, std::size_t slack = 0) {
-  if (std::max(hits, expected) - std::min(hits, expected) > slack)
-    throw std::runtime_error(verified.contender.name() + " answers otherwise when it is timed");
-}
-
-/// One run's times, appended; see Phase.
-void time_once(const Subject& subject, Measurement& result) {
-  const PeakMemory memory;
-  Stopwatch stopwatch;
-  const auto add = [&](Phase phase, double seconds) {
-    result.seconds[static_cast<std::size_t>(phase)].push_back(seconds);
-  };
-  const auto tracer = make_tracer(result.contender, subject.stage);
-  const double build = stopwatch.lap();
-  const auto primary = [&] { expect_hits(result, count_hits(*tracer, subject.work.primary), result.primary.total()); };
-  const auto shadow = [&] {
-    expect_hits(result, count_occluded(*tracer, subject.work.shadow), result.shadow.total(), result.occluded_differs);
-  };
-  const auto random = [&] { expect_hits(result, count_hits(*tracer, subject.work.random), result.random_hits); };
-  const auto ambient = [&] { expect_hits(result, count_occluded(*tracer, subject.work.ambient), result.ambient_hits); };
-  const auto time_warm = [&](Phase phase, const auto& trace_rays) {
-    stopwatch.lap();
-    trace_rays();
-    add(phase, stopwatch.lap());
-  };
-  primary();
-  shadow();
-  add(Phase::build, build);
-  add(Phase::cold, build + stopwatch.lap());
-  time_warm(Phase::camera, primary);
-  time_warm(Phase::shadow, shadow);
-  if (!subject.work.random.empty()) {
-    random();
-    time_warm(Phase::random, random);
+/// Those that are timed, in their order, neighbours together that may be held at the same time.
+std::vector<std::vector<Measurement*>> groups_of(std::vector<Measurement>& measurements, std::size_t most_bytes) {
+  std::vector<std::vector<Measurement*>> groups;
+  std::size_t held = 0;
+  for (Measurement& one : measurements) {
+    if (one.estimated || !one.fault.empty()) continue;
+    held += one.bytes;
+    if (groups.empty() || held > most_bytes) {
+      groups.emplace_back();
+      held = one.bytes;
+    }
+    groups.back().push_back(&one);
   }
-  if (!subject.work.ambient.empty()) {
-    ambient();
-    time_warm(Phase::ambient, ambient);
-  }
-  result.peak_bytes = std::max(result.peak_bytes, memory.growth());
+  return groups;
 }
 
 }  // namespace
@@ -170,7 +111,7 @@ LevelCounts Measurement::levels() const {
 }
 
 const char* name_of(Phase phase) {
-  constexpr std::array names{"build", "cold", "camera", "shadow", "random", "ambient"};
+  constexpr std::array names{"tessellation", "build", "cold", "camera", "shadow", "random", "ambient"};
   static_assert(names.size() == phases.size());
   return names[static_cast<std::size_t>(phase)];
 }
@@ -197,6 +138,7 @@ Subject::Subject(Stage of, ImageSize size, WarmRays warm)
       primary(trace(work.primary, exact)),
       shadow(trace(work.shadow, exact)),
       random(trace(work.random, exact)),
+      ambient(occlusions(work.ambient, exact)),
       diagonal((exact.bounds().upper - exact.bounds().lower).norm()) {}
 
 std::vector<Measurement> measure(const Subject& subject, std::span<const Contender> contenders,
@@ -218,9 +160,9 @@ std::vector<Measurement> measure(const Subject& subject, std::span<const Contend
                 done.errors.lost, done.errors.ghosts, done.fault.empty() ? "" : ": not timed: ", done.fault.c_str());
     std::fflush(stdout);
   }
+  const auto groups = groups_of(results, options.most_bytes);
   for (int run = 0; run < options.runs; ++run)
-    for (Measurement& result : results)
-      if (!result.estimated && result.fault.empty()) run_with_threads(1, [&] { time_once(subject, result); });
+    for (const auto& group : groups) run_with_threads(1, [&] { time_run(subject, group); });
   return results;
 }
 

@@ -20,17 +20,18 @@ struct LevelCounts {
   double mean() const;  ///< 0 without hits
 };
 
-/// What is timed, on one thread, each by itself.
+/// What is timed, each by itself: processor time of one thread.
 enum class Phase {
-  build,    ///< from meshes in memory to a scene; what waits for rays is not part of it
-  cold,     ///< build and the first image: primary and shadow rays
-  camera,   ///< the primary rays once more, with all that the first time made; so are the others:
-  shadow,   ///< by occluded()
-  random,   ///< by intersect(); a first time is not timed
-  ambient,  ///< by occluded(); a first time is not timed
+  tessellation,  ///< of Embree's triangles alone: making them, which is this library's work
+  build,         ///< from meshes (of Embree's triangles: from these) in memory to a scene, without what waits for rays
+  cold,          ///< tessellation, build and the first image: primary and shadow rays
+  camera,        ///< primary rays; these and the others are warm: all rays were traced before
+  shadow,        ///< by occluded()
+  random,        ///< by intersect()
+  ambient,       ///< by occluded()
 };
-inline constexpr std::array phases{Phase::build,  Phase::cold,   Phase::camera,
-                                   Phase::shadow, Phase::random, Phase::ambient};
+inline constexpr std::array phases{Phase::tessellation, Phase::build,  Phase::cold,   Phase::camera,
+                                   Phase::shadow,       Phase::random, Phase::ambient};
 const char* name_of(Phase phase);
 
 /// Median, least and most.
@@ -42,14 +43,14 @@ Spread spread(std::vector<double> values);
 struct Measurement {
   Contender contender;
   LevelCounts primary{}, shadow{};
-  ErrorFigures errors{};             ///< of primary and shadow rays together
+  ErrorFigures errors{};  ///< of primary and shadow rays together
+  ErrorFigures random_errors{};
+  HitFigures ambient_errors{};       ///< occluded() tells no distance
   std::size_t occluded_differs = 0;  ///< shadow rays that occluded() answers otherwise than intersect() does
-  std::size_t random_hits = 0;       ///< of random rays
-  std::size_t random_differs = 0;    ///< random rays that hit where the exact method misses, or the other way round
-  std::size_t ambient_hits = 0;      ///< of rays of ambient occlusion
   std::string fault{};               ///< why its answers are no picture of the scene, so that it is not timed; or empty
-  std::array<std::vector<double>, phases.size()> seconds{};  ///< by phase: of each run; empty where there are no rays
-  std::size_t bytes = 0;                                     ///< after all rays
+  /// By phase, of each run; empty where there is nothing to time.
+  std::array<std::vector<double>, phases.size()> seconds{};
+  std::size_t bytes = 0;       ///< after all rays
   std::size_t peak_bytes = 0;  ///< most by which a timed run raised the process's resident memory; 0: not timed
   bool estimated = false;      ///< not run: bytes are four times those of the level before
 
@@ -70,6 +71,7 @@ struct Subject {
   View view;
   Workload work;
   Answers primary, shadow, random;  ///< the exact ones
+  Occlusions ambient;               ///< the exact ones, too
   double diagonal;                  ///< of the scene's box
 
   Subject(Stage stage, ImageSize size, WarmRays warm = WarmRays::of_picture);
@@ -77,11 +79,12 @@ struct Subject {
 
 struct MeasureOptions {
   int runs = 3;
-  std::size_t most_bytes = std::size_t{1} << 30;  ///< what uniform triangles may occupy; what is beyond is estimated
+  /// What a level of triangles may occupy (beyond, it is estimated), and contenders together that take turns.
+  std::size_t most_bytes = std::size_t{1} << 30;
 };
 
-/// First the answers of all contenders, in parallel, each held against the exact ones; then their times, run by run,
-/// contenders in turns, so that a busy moment of the machine meets all. Uniform levels must come in ascending order.
+/// First the answers of all contenders, in parallel, each held against the exact ones; then their times, run by run, by
+/// time_run(), as many neighbours at a time as may occupy memory. Uniform levels must come in ascending order.
 /// Throws what the parts throw.
 std::vector<Measurement> measure(const Subject& subject, std::span<const Contender> contenders,
                                  const MeasureOptions& options);

@@ -3,24 +3,28 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tools/bench/text_table.h"
+
 namespace shaolin {
 
 const char* const time_rows_note =
-    "Build: from meshes in memory to a scene. Cold: that and the first image, its primary and shadow rays. Then what "
-    "is "
-    "there already is asked again: camera and shadow rays are the image's; random rays are incoherent; ambient rays "
-    "are "
-    "short, as of ambient occlusion. Medians, least to most. Memory: bytes held by patches, or by triangles and their "
-    "hierarchy, after all rays; peak: by how much resident memory rose at most, other things and what is freed again "
-    "included.";
+    "Tessellation: what this library takes to make the triangles that Embree is given. Build: from meshes, or these "
+    "triangles, in memory to a scene. Cold: both and the first image, its primary and shadow rays. Then what is there "
+    "already is asked: camera and shadow rays are the image's; random rays are incoherent; ambient rays are short, as "
+    "of "
+    "ambient occlusion. Medians, least to most. Memory: bytes held by patches, or by triangles and their hierarchy, "
+    "after "
+    "all rays; peak: by how much resident memory rose at most, other things and what is freed again included.";
 
 const char* const error_rows_note =
-    "Errors are held against the exact method "
-    "over all primary and shadow rays where both hit: the distance along the "
-    "ray between the hits, in the scene's unit of length, and the angle between the normals. Lost: only the exact "
-    "method hits; ghosts: only the other does. Farther and nearer: both hit, further apart than the band is wide. "
-    "Outside: those of them that no exact ray explains that runs beside this one, within the band's width of 2 "
-    "max(epsilon, min size &times; pixel at the hit). For triangles no band is known.";
+    "Errors are held against the exact method, over all rays that both hit: the distance along the ray between the "
+    "hits, "
+    "in the scene's unit of length, and the angle between the normals. Lost: only the exact method hits; ghosts: only "
+    "the "
+    "other does. Farther and nearer: both hit, further apart than the band is wide. Outside: those of them that no "
+    "exact "
+    "ray explains that runs beside this one, within the band's width of 2 max(epsilon, min size &times; pixel at the "
+    "hit). For triangles no band is known.";
 
 std::string digits(double value, int significant) {
   char text[48];
@@ -46,7 +50,7 @@ std::string color_of(const Contender& contender) {
       return "#111";
     case ContenderKind::uniform:
       return "#4b8b3b";
-    case ContenderKind::embree:
+    case ContenderKind::triangles:
       return "#9a4fb0";
     case ContenderKind::subdivision:
       break;
@@ -77,33 +81,40 @@ void write_time_rows(std::ostream& out, const std::vector<Measurement>& measurem
           << (one.estimated ? "about " : "") << megabytes(one.bytes) << "<td></tr>\n";
       continue;
     }
-    for (const Phase phase : shown) out << "<td class=n>" << to_text(spread(one.times(phase)));
+    for (const Phase phase : shown)
+      out << "<td class=n>" << (one.is_timed(phase) ? to_text(spread(one.times(phase))) : "");
     out << "<td class=n>" << megabytes(one.bytes) << "<td class=n>" << megabytes(one.peak_bytes) << "</tr>\n";
   }
   out << "</table>\n";
 }
 
-void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements) {
-  out << "<table><tr><th>method<th class=n>distance: median<th class=n>99 %<th class=n>max<th class=n>normal rad: "
-         "median<th class=n>99 %<th class=n>max<th class=n>lost<th class=n>ghosts<th class=n>farther<th "
-         "class=n>nearer<th class=n>outside: lost<th class=n>ghosts</tr>\n";
-  const auto cell = [&](const std::string& text) { out << "<td class=n>" << text; };
+void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements,
+                      ErrorFigures Measurement::*rays) {
+  TextTable table{.header = {"method", "distance: median", "99 %", "max", "normal rad: median", "99 %", "max", "lost",
+                             "ghosts", "farther", "nearer", "outside: lost", "ghosts"}};
   for (const Measurement& one : measurements) {
     if (one.estimated) continue;
-    out << "<tr><td>" << one.contender.name();
-    for (const Quantiles* const of : {&one.errors.distance, &one.errors.normal})
-      for (const double value : {of->median, of->p99, of->max}) cell(digits(value, 2));
-    cell(std::to_string(one.errors.lost));
-    cell(std::to_string(one.errors.ghosts));
-    if (one.contender.is_adaptive())
-      for (const std::size_t value :
-           {one.errors.farther, one.errors.nearer, one.errors.lost_outside, one.errors.ghosts_outside})
-        cell(std::to_string(value));
-    else
-      out << "<td colspan=4>";
-    out << "</tr>\n";
+    const ErrorFigures& errors = one.*rays;
+    std::vector<std::string> row{one.contender.name()};
+    for (const Quantiles* const of : {&errors.distance, &errors.normal})
+      for (const double value : {of->median, of->p99, of->max}) row.push_back(digits(value, 2));
+    for (const std::size_t value : {errors.lost, errors.ghosts}) row.push_back(std::to_string(value));
+    for (const std::size_t value : {errors.farther, errors.nearer, errors.lost_outside, errors.ghosts_outside})
+      row.push_back(one.contender.is_adaptive() ? std::to_string(value) : "");
+    table.rows.push_back(row);
   }
-  out << "</table>\n";
+  write_html(out, table);
+}
+
+void write_hit_rows(std::ostream& out, const std::vector<Measurement>& measurements) {
+  TextTable table{.header = {"method", "hits", "lost", "ghosts"}};
+  for (const Measurement& one : measurements) {
+    if (one.estimated) continue;
+    const HitFigures& hits = one.ambient_errors;
+    table.rows.push_back({one.contender.name(), std::to_string(hits.own_hits()), std::to_string(hits.lost),
+                          std::to_string(hits.ghosts)});
+  }
+  write_html(out, table);
 }
 
 }  // namespace shaolin

@@ -42,8 +42,12 @@ PlotSeries line_of(const Measurement& measurement, const Spread& y, const std::s
 /// Rows of times by phase, of those phases that any was timed in, and of memory.
 void write_time_rows(std::ostream& out, const std::vector<Measurement>& measurements);
 
-/// Rows of errors, lost and ghost hits.
-void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements);
+/// Rows of errors, lost and ghost hits, of primary and shadow rays or of random ones.
+void write_error_rows(std::ostream& out, const std::vector<Measurement>& measurements,
+                      ErrorFigures Measurement::*rays = &Measurement::errors);
+
+/// Rows of lost and ghost hits of ambient occlusion.
+void write_hit_rows(std::ostream& out, const std::vector<Measurement>& measurements);
 
 /// What stands in those rows, in words.
 extern const char* const time_rows_note;

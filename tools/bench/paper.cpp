@@ -28,7 +28,7 @@ std::vector<Contender> contenders_of(const PaperScene& scene, int most_level) {
   std::vector<Contender> all{Contender{}};
   for (const ContenderKind kind : {ContenderKind::chord, ContenderKind::a3})
     for (const PaperLevels& row : scene.levels) all.push_back(adaptive(kind, scene, row.epsilon));
-  for (const ContenderKind kind : {ContenderKind::uniform, ContenderKind::embree})
+  for (const ContenderKind kind : {ContenderKind::uniform, ContenderKind::triangles})
     for (int level = 1; level <= most_level; ++level) all.push_back({.kind = kind, .level = level});
   return all;
 }

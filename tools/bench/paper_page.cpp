@@ -127,7 +127,7 @@ void write_time_words(std::ostream& out, const PaperResult& result) {
   if (ours != nullptr && ours->is_timed()) {
     const int like = static_cast<int>(std::lround(ours->levels().mean()));
     const Measurement* const uniform = result.find(ContenderKind::uniform, like);
-    const Measurement* const embree = result.find(ContenderKind::embree, like);
+    const Measurement* const embree = result.find(ContenderKind::triangles, like);
     out << " Against triangles of the level that is nearest to the mean at &epsilon; = " << paper_epsilon << ", "
         << like << ", ShaoLin takes ";
     if (uniform != nullptr && uniform->is_timed())

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <utility>
 
 #include "schemes/errors.h"
 #include "tools/bench/csv_tables.h"
 #include "tools/bench/embree_stage.h"
 #include "tools/bench/paper_figures.h"
+#include "tools/bench/peer_ratios.h"
 #include "tools/bench/report_folder.h"
 #include "tools/cli/command.h"
 #include "tools/cli/csv.h"
@@ -26,16 +28,25 @@ const PaperScene* paper_scene_of(const ModelOptions& model) {
   return nullptr;
 }
 
+bool is_chosen(const ParetoOptions& options, ContenderKind kind) {
+  return kind == ContenderKind::exact || options.methods.empty() ||
+         std::count(options.methods.begin(), options.methods.end(), name_of(kind)) > 0;
+}
+
 /// The peer next to the exact method, for turns are taken in this order.
 std::vector<Contender> contenders_of(const ParetoOptions& options, const ParetoResult& scene) {
-  std::vector<Contender> all{Contender{}};
-  for (const ContenderKind kind : {ContenderKind::subdivision, ContenderKind::embree, ContenderKind::uniform})
-    for (int level = 1; level <= options.most_level; ++level)
-      if (kind != ContenderKind::subdivision || scene.left_out.empty()) all.push_back({.kind = kind, .level = level});
-  for (const ContenderKind kind : {ContenderKind::chord, ContenderKind::a3})
-    for (const double epsilon : epsilons)
-      all.push_back(
-          {.kind = kind, .epsilon = epsilon, .chord = {epsilon * scene.unit, options.min_size, scene.max_size}});
+  std::vector<Contender> all;
+  for (const ContenderKind kind : contender_kinds) {
+    if (!is_chosen(options, kind) || (kind == ContenderKind::subdivision && !scene.left_out.empty())) continue;
+    if (const Contender one{.kind = kind}; one.is_uniform())
+      for (int level = 1; level <= options.most_level; ++level) all.push_back({.kind = kind, .level = level});
+    else if (one.is_adaptive())
+      for (const double epsilon : epsilons)
+        all.push_back(
+            {.kind = kind, .epsilon = epsilon, .chord = {epsilon * scene.unit, options.min_size, scene.max_size}});
+    else
+      all.push_back(one);
+  }
   return all;
 }
 
@@ -78,7 +89,7 @@ ParetoResult measure_scene(const ParetoOptions& options, const ModelOptions& mod
   result.shadow = subject.work.shadow.size();
   result.random = subject.work.random.size();
   result.ambient = subject.work.ambient.size();
-  result.left_out = why_no_subdivision(subject.stage);
+  if (is_chosen(options, ContenderKind::subdivision)) result.left_out = why_no_subdivision(subject.stage);
   if (!result.left_out.empty()) std::printf("  Embree's subdivision is left out: %s\n", result.left_out.c_str());
   result.measurements = measure(subject, contenders_of(options, result), options.measure);
   result.exact = exact_errors(subject.stage, subject.exact, subject.work.primary, options.exact_hits);
@@ -120,6 +131,10 @@ int bench_pareto(const ParetoOptions& options) {
     for (std::size_t i = 0; i < stages.size(); ++i)
       results.push_back(measure_scene(options, model_of(options, options.files[i]), std::move(stages[i])));
     write_report(options, results);
+    if (const TextTable bars = bar_table(results); !bars.rows.empty()) {
+      std::cout << bar_note << '\n';
+      write_markdown(std::cout, bars);
+    }
     for (const ParetoResult& result : results)
       for (const Measurement& one : result.measurements)
         if (!one.fault.empty()) status = exit_check_failed;

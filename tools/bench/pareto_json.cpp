@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "tools/bench/pareto.h"
+#include "tools/bench/peer_ratios.h"
 
 namespace shaolin {
 namespace {
@@ -11,13 +11,13 @@ Json to_json(const Quantiles& of) { return {{"median", of.median}, {"p99", of.p9
 
 Json to_json(const Spread& of) { return {{"median", of.median}, {"least", of.least}, {"most", of.most}}; }
 
+Json to_json(const HitFigures& errors) {
+  return {{"rays", errors.rays}, {"hits", errors.hits}, {"lost", errors.lost}, {"ghosts", errors.ghosts}};
+}
+
 Json to_json(const ErrorFigures& errors, bool has_band) {
-  Json json{{"rays", errors.rays},
-            {"hits", errors.hits},
-            {"distance", to_json(errors.distance)},
-            {"normal", to_json(errors.normal)},
-            {"lost", errors.lost},
-            {"ghosts", errors.ghosts}};
+  Json json = to_json(static_cast<const HitFigures&>(errors));
+  json.update({{"distance", to_json(errors.distance)}, {"normal", to_json(errors.normal)}});
   if (has_band)
     json.update({{"farther", errors.farther},
                  {"nearer", errors.nearer},
@@ -40,11 +40,18 @@ Json to_json(const Measurement& one) {
       json["seconds"][name_of(phase)] = to_json(spread(one.times(phase)));
       json["seconds"][name_of(phase)]["runs"] = one.times(phase);
     }
-  json["errors"] = to_json(one.errors, one.contender.is_adaptive());
+  json["errors"] = {{"picture", to_json(one.errors, one.contender.is_adaptive())},
+                    {"random", to_json(one.random_errors, one.contender.is_adaptive())},
+                    {"ambient", to_json(one.ambient_errors)}};
   json["occluded_differs"] = one.occluded_differs;
-  json["random_hits"] = one.random_hits;
-  json["random_differs"] = one.random_differs;
-  json["ambient_hits"] = one.ambient_hits;
+  return json;
+}
+
+Json to_json(const PeerRatios& ratios) {
+  Json json{{"method", ratios.peer.method()}, {"level", ratios.peer.level}};
+  for (std::size_t i = 0; i < ratio_names.size(); ++i)
+    if (ratios.times[i]) json[ratio_names[i]] = to_json(*ratios.times[i]);
+  json["memory"] = ratios.memory;
   return json;
 }
 
@@ -61,6 +68,8 @@ Json to_json(const ParetoResult& result) {
   if (!result.left_out.empty()) json["embree_subdivision_left_out"] = result.left_out;
   json["measurements"] = Json::array();
   for (const Measurement& one : result.measurements) json["measurements"].push_back(to_json(one));
+  json["exact_over_peers"] = Json::array();
+  for (const PeerRatios& one : ratios_over_peers(result)) json["exact_over_peers"].push_back(to_json(one));
   json["exact"] = {{"hits", result.exact.hits},
                    {"position", to_json(result.exact.position)},
                    {"across", to_json(result.exact.across)},

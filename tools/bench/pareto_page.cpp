@@ -1,25 +1,29 @@
 #include <functional>
 
 #include "tools/bench/page_parts.h"
-#include "tools/bench/pareto.h"
+#include "tools/bench/peer_ratios.h"
+#include "tools/bench/turns.h"
 #include "tools/cli/html.h"
 
 namespace shaolin {
 namespace {
 
 constexpr ContenderKind plotted_kinds[] = {ContenderKind::chord, ContenderKind::a3, ContenderKind::uniform,
-                                           ContenderKind::embree, ContenderKind::subdivision};
+                                           ContenderKind::triangles, ContenderKind::subdivision};
 
-/// One of the quantiles of one of the errors.
+/// One of the quantiles of one of the errors of the picture's, or of random, rays.
 struct ErrorAxis {
   const char* name;
   Quantiles ErrorFigures::*error;
   double Quantiles::*quantile;
+  ErrorFigures Measurement::*rays = &Measurement::errors;
 
-  double operator()(const Measurement& one) const { return one.errors.*error.*quantile; }
+  double operator()(const Measurement& one) const { return one.*rays.*error.*quantile; }
 };
 constexpr ErrorAxis p99{"distance along the ray, 99th percentile, in the scene's unit", &ErrorFigures::distance,
                         &Quantiles::p99};
+constexpr ErrorAxis random_p99{"distance along random rays, 99th percentile, in the scene's unit",
+                               &ErrorFigures::distance, &Quantiles::p99, &Measurement::random_errors};
 constexpr ErrorAxis median{"distance along the ray, median, in the scene's unit", &ErrorFigures::distance,
                            &Quantiles::median};
 constexpr ErrorAxis angle{"angle of the normal, 99th percentile, rad", &ErrorFigures::normal, &Quantiles::p99};
@@ -66,27 +70,25 @@ void write_plot(std::ostream& out, const ParetoResult& result, const CostAxis& c
 void write_plots(std::ostream& out, const ParetoResult& result) {
   for (const Phase phase : phases) {
     const bool any = result.ambient > 0 || phase != Phase::ambient;
-    if (phase != Phase::build && any) write_plot(out, result, cost_of(phase), p99);
+    if (phase != Phase::tessellation && phase != Phase::build && any)
+      write_plot(out, result, cost_of(phase), phase == Phase::random ? random_p99 : p99);
   }
   write_plot(out, result, memory(), p99);
   for (const ErrorAxis& error : {median, angle}) write_plot(out, result, cost_of(Phase::cold), error);
 }
 
-/// The exact method's times over those of Embree, by phase.
 void write_ratios(std::ostream& out, const ParetoResult& result) {
-  const Measurement& exact = result.measurements.front();
-  if (!exact.is_timed()) return;
-  out << "<h3>The exact method's time over the peer's</h3>\n<table><tr><th>peer";
-  for (const Phase phase : phases) out << "<th class=n>" << name_of(phase);
-  out << "</tr>\n";
-  for (const Measurement& one : result.measurements) {
-    if (!one.contender.is_embree() || !one.is_timed()) continue;
-    out << "<tr><td>" << one.contender.name();
-    for (const Phase phase : phases)
-      out << "<td class=n>" << (one.is_timed(phase) ? to_text(ratio(exact, one, phase)) : "");
-    out << "</tr>\n";
-  }
-  out << "</table>\n<p>Run by run: median, least to most. Below 1 the exact method is the faster one.</p>\n";
+  const TextTable ratios = ratio_table(result);
+  if (ratios.rows.empty()) return;
+  out << "<h3>The exact method over Embree, all levels</h3>\n";
+  write_html(out, ratios);
+}
+
+void write_bars(std::ostream& out, const std::vector<ParetoResult>& results) {
+  const TextTable bars = bar_table(results);
+  if (bars.rows.empty()) return;
+  out << "<h2>The exact method over Embree</h2>\n<p>" << bar_note << "</p>\n";
+  write_html(out, bars);
 }
 
 std::string exact_row(const std::string& name, const Quantiles& of) {
@@ -118,7 +120,14 @@ void write_scene(std::ostream& out, const ParetoResult& result) {
   write_time_rows(out, result.measurements);
   out << "<h3>Errors</h3>\n";
   write_exact_errors(out, result.exact);
+  out << "<h4>Camera and shadow rays</h4>\n";
   write_error_rows(out, result.measurements);
+  out << "<h4>Random rays</h4>\n";
+  write_error_rows(out, result.measurements, &Measurement::random_errors);
+  if (result.ambient > 0) {
+    out << "<h4>Rays of ambient occlusion</h4>\n";
+    write_hit_rows(out, result.measurements);
+  }
   for (const Measurement& one : result.measurements)
     if (!one.fault.empty())
       out << "<p class=FAIL>" << one.contender.name() << " was not timed: " << html_escaped(one.fault) << ".</p>\n";
@@ -128,12 +137,14 @@ void write_scene(std::ostream& out, const ParetoResult& result) {
 
 void write_pareto_page(std::ostream& out, const std::vector<ParetoResult>& results, const ParetoOptions& options) {
   out << html_head("shaolin bench pareto", "Time and memory against error") << "<p>" << options.size.width << "x"
-      << options.size.height << " pixels, one thread; " << options.measure.runs
-      << " runs in turns, medians with bars from least to most; minSize " << options.min_size
+      << options.size.height << " pixels, one thread's processor time; " << options.measure.runs
+      << " runs, warm rays in turns of " << chunk_rays << ", medians with bars from least to most; minSize "
+      << options.min_size
       << " pixels. Points carry their epsilon or level. Left and below is better. The exact method is what errors are "
          "measured from: its line is its time, with its own error at the end. Files: <a href=pareto.json>all in "
          "JSON</a>, <a href=times.csv>times</a>, <a href=errors.csv>errors</a>, <a href=exact.csv>the exact method's "
          "errors</a>.</p>\n";
+  write_bars(out, results);
   for (const ParetoResult& result : results) write_scene(out, result);
   out << "<h2>What the tables hold</h2>\n<p>" << time_rows_note << "</p>\n<p>" << error_rows_note
       << " The normals of Embree's subdivision are its facets'.</p>\n</html>\n";

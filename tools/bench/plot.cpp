@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <limits>
 
+#include "tools/bench/plot_labels.h"
 #include "tools/cli/html.h"
 
 namespace shaolin {
 namespace {
 
 constexpr double width = 780, height = 430, left = 74, right = 270, top = 14, bottom = 52;
+constexpr double font_size = 12;
 constexpr double plot_right = width - right, plot_bottom = height - bottom;
 
 std::string number(double value) {
@@ -85,9 +87,6 @@ void write_series(std::ostream& out, const PlotSeries& series, const Axis& x, co
     const PlotPoint& point = series.points.front();
     write_line(out, left, y.at(point.y), plot_right, y.at(point.y), stroke + " stroke-width='1.4'");
     if (point.high > 0) write_line(out, plot_right - 4, y.at(point.low), plot_right - 4, y.at(point.high), stroke);
-    // Dashed lines' labels stand in a column of their own, as they run close to the others.
-    write_text(out, plot_right + (series.dashed ? 56 : 5), y.at(point.y) + 4, point.label,
-               "fill='" + series.color + "'");
     return;
   }
   out << "<polyline fill='none' stroke-width='1.8' " << stroke << " points='";
@@ -102,9 +101,42 @@ void write_series(std::ostream& out, const PlotSeries& series, const Axis& x, co
       for (const double end : {point.low, point.high})
         write_line(out, at - 3, y.at(end), at + 3, y.at(end), "stroke='" + series.color + "'");
     }
-    out << "<circle cx='" << at << "' cy='" << y.at(point.y) << "' r='3.2' fill='" << series.color << "'/>\n";
-    if (!point.label.empty())
-      write_text(out, at + 6, y.at(point.y) - 5, point.label, "font-size='10' fill='" + series.color + "'");
+    out << "<circle cx='" << at << "' cy='" << y.at(point.y) << "' r='" << PointLabels::radius << "' fill='"
+        << series.color << "'/>\n";
+  }
+}
+
+void write_point_labels(std::ostream& out, const Plot& plot, const Axis& x, const Axis& y) {
+  PointLabels labels;
+  const auto for_each_point = [&](const auto& use) {
+    for (const PlotSeries& series : plot.series)
+      for (const PlotPoint& point : series.points)
+        if (!series.level_line && point.x > 0 && point.y > 0) use(series, point);
+  };
+  for_each_point([&](const PlotSeries&, const PlotPoint& point) { labels.add_mark(x.at(point.x), y.at(point.y)); });
+  for_each_point([&](const PlotSeries& series, const PlotPoint& point) {
+    if (point.label.empty()) return;
+    if (const auto place = labels.place(x.at(point.x), y.at(point.y), point.label.size()))
+      write_text(out, place->x, place->y, point.label,
+                 "font-size='" + number(PointLabels::font_size) + "' fill='" + series.color + "'");
+  });
+}
+
+/// Dashed lines' labels stand in a column of their own, as they run close to the others.
+void write_line_labels(std::ostream& out, const Plot& plot, const Axis& y) {
+  for (const bool dashed : {false, true}) {
+    std::vector<const PlotSeries*> lines;
+    for (const PlotSeries& series : plot.series)
+      if (series.level_line && series.dashed == dashed) lines.push_back(&series);
+    const auto height_of = [&](const PlotSeries* line) { return y.at(line->points.front().y) + 4; };
+    std::stable_sort(lines.begin(), lines.end(),
+                     [&](const auto* a, const auto* b) { return height_of(a) < height_of(b); });
+    std::vector<double> wanted;
+    for (const PlotSeries* const line : lines) wanted.push_back(height_of(line));
+    const std::vector<double> heights = moved_apart(wanted, font_size);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      write_text(out, plot_right + (dashed ? 56 : 5), heights[i], lines[i]->points.front().label,
+                 "fill='" + lines[i]->color + "'");
   }
 }
 
@@ -133,10 +165,12 @@ void write_svg(std::ostream& out, const Plot& plot) {
   x.close();
   y.close();
   out << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " << width << ' ' << height << "' width='" << width
-      << "' height='" << height << "' font-size='12' font-family='sans-serif'>\n";
+      << "' height='" << height << "' font-size='" << font_size << "' font-family='sans-serif'>\n";
   write_axes(out, plot, x, y);
   for (const PlotSeries& series : plot.series)
     if (!series.points.empty()) write_series(out, series, x, y);
+  write_point_labels(out, plot, x, y);
+  write_line_labels(out, plot, y);
   write_legend(out, plot);
   out << "</svg>\n";
 }

@@ -9,7 +9,7 @@ namespace shaolin {
 struct PlotPoint {
   double x = 0, y = 0;
   double low = 0, high = 0;  ///< ends of the bar through y; none if both are 0
-  std::string label{};       ///< beside the point
+  std::string label{};       ///< beside the point, where there is room
 };
 
 struct PlotSeries {
