@@ -53,7 +53,7 @@ Vec3 point_in(const Box& box, Random& random) {
 
 }  // namespace
 
-TEST_CASE("Random rays cross closed surfaces an even number of times, in and out in turns", "[intersect][all]") {
+TEST_CASE("Random rays cross closed surfaces an even number of times, in and out in turns", "[intersect][all][sweep]") {
   int models = 0;
   for (const Model& model : all_models()) {
     if (!is_closed(model.mesh)) continue;
@@ -86,7 +86,7 @@ TEST_CASE("Random rays cross closed surfaces an even number of times, in and out
   CHECK(models >= 5);
 }
 
-TEST_CASE("All hits are those found one after the other", "[intersect][all]") {
+TEST_CASE("All hits are those found one after the other", "[intersect][all][sweep]") {
   for (const Model& model : all_models()) {
     INFO(model.name);
     const Scene scene(model.mesh, model.scheme);
@@ -106,7 +106,7 @@ TEST_CASE("All hits are those found one after the other", "[intersect][all]") {
   }
 }
 
-TEST_CASE("Rays through edges and vertices of closed surfaces cross each place once", "[intersect][all]") {
+TEST_CASE("Rays through edges and vertices of closed surfaces cross each place once", "[intersect][all][sweep]") {
   Random random(13);
   for (const Model& model : all_models()) {
     if (!is_closed(model.mesh)) continue;

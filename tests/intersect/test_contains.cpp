@@ -43,7 +43,7 @@ TEST_CASE("A flat cube contains what its box does, whichever way its faces are w
   }
 }
 
-TEST_CASE("Points beside a closed surface are on the side that the normal says", "[intersect][contains]") {
+TEST_CASE("Points beside a closed surface are on the side that the normal says", "[intersect][contains][sweep]") {
   int models = 0;
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
