@@ -17,11 +17,11 @@ class Bvh {
   /// The ray in the coordinates of the boxes, from where it enters the bounds; empty if it misses them.
   std::optional<BoxRay> enter(const TraversalRay& ray) const;
 
-  /// Calls visit(primitive) for the primitives whose boxes the ray meets before `far()`, nearest box first within each
-  /// node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`, in the ray's units,
-  /// may shrink meanwhile. Stops when visit returns true.
-  template <class Far, class Visit>
-  void traverse(const BoxRay& ray, Far far, Visit visit) const;
+  /// Calls visit(primitive) for the primitives whose boxes a probe (BoxRay or BoxPoint) meets before `far()`, nearest
+  /// box first within each node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`,
+  /// in the probe's units, may shrink meanwhile. Stops when visit returns true.
+  template <class Probe, class Far, class Visit>
+  void traverse(const Probe& probe, Far far, Visit visit) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
   const Box& bounds() const { return bounds_; }
@@ -43,8 +43,8 @@ class Bvh {
   int depth_ = 0;
 };
 
-template <class Far, class Visit>
-void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
+template <class Probe, class Far, class Visit>
+void Bvh::traverse(const Probe& probe, Far far, Visit visit) const {
   struct Entry {
     std::int32_t child;
     float distance;
@@ -71,7 +71,7 @@ void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
     Entry* const first = top;
-    for (unsigned met = ray.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
+    for (unsigned met = probe.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
       Entry* at = top++;
       for (; at != first && at[-1].distance < entries[i]; --at) *at = at[-1];

@@ -27,6 +27,12 @@ class SchemeObject final : public Object {
     return intersector_.intersect(ray, counters);
   }
   bool occluded(const Ray& ray, RayCounters& counters) const override { return intersector_.occluded(ray, counters); }
+  std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const override {
+    if constexpr (requires { intersector_.closest_point(query, counters); })
+      return intersector_.closest_point(query, counters);
+    else
+      throw InputError("closest points are asked of the limit surface itself; expected Method::exact");
+  }
 
  private:
   SchemeSurface<S> surface_;

@@ -11,6 +11,7 @@
 #include "../schemes/scheme_surface.h"
 #include "approach.h"
 #include "bvh.h"
+#include "closest_search.h"
 #include "face_bounds.h"
 #include "tree_totals.h"
 
@@ -48,6 +49,14 @@ class ShaoLin {
 
   /// True if there is a hit in [tmin, tmax].
   bool occluded(const Ray& ray, RayCounters& counters) const;
+
+  /// The closest place within the query's radius, in the object's space and without a distance; empty if there is none.
+  /// Of places that are equally near to rounding, the one visited first; the order of visits depends on the query
+  /// alone. For finishes whose start patches have parts (exact_finish.h). Throws as intersect() does.
+  std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const requires
+      requires(const typename Finish<S>::StartPatch& start) {
+    start.patch();
+  };
 
   /// A box that holds the surface.
   const Box& bounds() const { return bvh_.bounds(); }
@@ -166,6 +175,45 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
   Hit hit = finish_.hit(best->found, best->primitive.face, best->primitive.sub, surface_);
   hit.t = std::clamp(traversal.t(best->found.distance), ray.tmin, ray.tmax);
   return hit;
+}
+
+template <Scheme S, template <class> class Finish>
+std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(const PointQuery& query,
+                                                              RayCounters& counters) const requires
+    requires(const typename Finish<S>::StartPatch& start) {
+  start.patch();
+}
+{
+  if (primitives_.empty()) return {};
+  PointApproach approach(query, bvh_.bounds(), bvh_.space(), counters);
+  std::optional<typename ClosestSearch<S>::Found> best;
+  int best_primitive = 0;
+  bvh_.traverse(
+      approach.box_point(), [&] { return approach.box_limit(); },
+      [&](int primitive) {
+        const StartPatch& start = start_patch(primitive);
+        if (!approach.box_point().meets(start.box(), approach.box_limit())) return false;
+        ClosestSearch<S> search(approach, totals_);
+        search.search(start.patch(), start.parts());
+        if (search.found()) {
+          best = search.found();
+          best_primitive = primitive;
+        }
+        return false;
+      });
+  if (!best) return {};
+  const auto [face, sub] = primitives_[static_cast<std::size_t>(best_primitive)];
+  ClosestPoint closest;
+  closest.level = best->level;
+  if (best->patch) {
+    const Hit hit = finish_.hit(Found{best->patch, best->at, best->level, 0}, face, sub, surface_);
+    closest.at = hit.at;
+    closest.sample = hit.sample;
+  } else {
+    closest.at = {face, sub, best->at.x(), best->at.y()};
+    closest.sample = *surface_.evaluate(closest.at);
+  }
+  return closest;
 }
 
 }  // namespace shaolin
