@@ -28,13 +28,13 @@ class BoxPoint {
     return static_cast<float>(value + 0x1p-22 * std::abs(value) + 4 * unit_roundoff * start_);
   }
 
-  /// True if the box may hold something that is not beyond `far`.
-  bool meets(const SceneBox& box, float far) const {
-    const auto side = [&](const float(&b)[3]) { return Vec3(b[0], b[1], b[2]); };
-    return squared_distance(side(box.bounds[0]), side(box.bounds[1])) <= squared(far);
+  /// A lower bound of the distance from what a box holds.
+  float distance(const SceneBox& box) const {
+    const auto side = [](const float(&b)[3]) { return Vec3(b[0], b[1], b[2]); };
+    return rounded_down(std::sqrt(squared_distance(side(box.bounds[0]), side(box.bounds[1]))));
   }
 
-  /// Those of eight boxes that may, as bits; the distances from which on.
+  /// Those of eight boxes that may hold something which is not beyond `far`, as bits; lower bounds of its distances.
   unsigned meet(const EightBoxes& boxes, float far, std::array<float, 8>& entries) const {
     constexpr std::size_t count = 8;
     double middle[3][count], half[3][count], sum[count] = {};
@@ -68,8 +68,7 @@ class BoxPoint {
       const bool is_empty = boxes.bounds[0][0][i] > boxes.bounds[1][0][i];
       if (is_empty || !(sum[i] <= limit)) continue;
       met |= 1U << i;
-      const double value = std::sqrt(sum[i]) - start_;
-      entries[i] = static_cast<float>(value - 0x1p-22 * std::abs(value));
+      entries[i] = rounded_down(std::sqrt(sum[i]));
     }
     return met;
   }
@@ -87,6 +86,11 @@ class BoxPoint {
       if (const double least = std::abs(reach) - size; least > 0) sum += least * least;
     }
     return sum;
+  }
+
+  float rounded_down(double distance) const {
+    const double value = distance - start_;
+    return static_cast<float>(value - 0x1p-22 * std::abs(value));
   }
 
   double squared(float far) const {

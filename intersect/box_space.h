@@ -1,5 +1,5 @@
 #pragma once
-/// Many boxes in single precision, rounded outward, and one ray against them.
+/// Many boxes against one ray, in single precision, rounded outward.
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -120,21 +120,17 @@ class BoxRay {
   std::array<std::uint8_t, 3> entered_at_;
 };
 
-/// Those of up to sixteen boxes that a probe meets (a BoxRay or a BoxPoint), nearest first, with the distances (in the
-/// probe's units) at which it does.
+/// Those of up to sixteen boxes that a ray meets, nearest first, with the distances (in the ray's units) at which it
+/// enters.
 class BoxOrder {
  public:
   BoxOrder() = default;
-  template <class Probe>
-  BoxOrder(const EightBoxes& boxes, const Probe& probe, float far) {
-    add(boxes, 0, probe, far);
-  }
+  BoxOrder(const EightBoxes& boxes, const BoxRay& ray, float far) { add(boxes, 0, ray, far); }
 
   /// Eight boxes, numbered from `first` on.
-  template <class Probe>
-  void add(const EightBoxes& boxes, std::size_t first, const Probe& probe, float far) {
+  void add(const EightBoxes& boxes, std::size_t first, const BoxRay& ray, float far) {
     alignas(32) std::array<float, 8> entries;
-    for (unsigned met = probe.meet(boxes, far, entries); met != 0; met &= met - 1) {
+    for (unsigned met = ray.meet(boxes, far, entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
       std::size_t at = count_++;
       for (; at > 0 && distance_[at - 1] > entries[i]; --at) {

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "box_space.h"
+#include "box_point.h"
+#include "nearest_queue.h"
 
 namespace shaolin {
 
@@ -17,11 +18,16 @@ class Bvh {
   /// The ray in the coordinates of the boxes, from where it enters the bounds; empty if it misses them.
   std::optional<BoxRay> enter(const TraversalRay& ray) const;
 
-  /// Calls visit(primitive) for the primitives whose boxes a probe (BoxRay or BoxPoint) meets before `far()`, nearest
-  /// box first within each node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`,
-  /// in the probe's units, may shrink meanwhile. Stops when visit returns true.
-  template <class Probe, class Far, class Visit>
-  void traverse(const Probe& probe, Far far, Visit visit) const;
+  /// Calls visit(primitive) for the primitives whose boxes the ray meets before `far()`, nearest box first within each
+  /// node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`, in the ray's units,
+  /// may shrink meanwhile. Stops when visit returns true.
+  template <class Far, class Visit>
+  void traverse(const BoxRay& ray, Far far, Visit visit) const;
+
+  /// Calls visit(primitive, distance) for the primitives whose boxes are not farther from the point than `far()`,
+  /// nearest box first; distances are in the point's units, and `far()` may shrink meanwhile.
+  template <class Far, class Visit>
+  void nearest_first(const BoxPoint& point, Far far, Visit visit) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
   const Box& bounds() const { return bounds_; }
@@ -43,8 +49,8 @@ class Bvh {
   int depth_ = 0;
 };
 
-template <class Probe, class Far, class Visit>
-void Bvh::traverse(const Probe& probe, Far far, Visit visit) const {
+template <class Far, class Visit>
+void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
   struct Entry {
     std::int32_t child;
     float distance;
@@ -71,11 +77,32 @@ void Bvh::traverse(const Probe& probe, Far far, Visit visit) const {
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
     Entry* const first = top;
-    for (unsigned met = probe.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
+    for (unsigned met = ray.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
       Entry* at = top++;
       for (; at != first && at[-1].distance < entries[i]; --at) *at = at[-1];
       *at = {node.child[i], entries[i]};
+    }
+  }
+}
+
+template <class Far, class Visit>
+void Bvh::nearest_first(const BoxPoint& point, Far far, Visit visit) const {
+  if (nodes_.empty()) return;
+  NearestQueue<std::int32_t> queue;
+  queue.push(-std::numeric_limits<float>::infinity(), 0);
+  alignas(32) std::array<float, width> entries;
+  while (!queue.empty() && queue.distance() <= far()) {
+    const float distance = queue.distance();
+    const std::int32_t child = queue.pop();
+    if (child < 0) {
+      visit(~child, distance);
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(child)];
+    for (unsigned met = point.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      queue.push(entries[i], node.child[i]);
     }
   }
 }

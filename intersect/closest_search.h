@@ -1,13 +1,15 @@
 #pragma once
-/// The closest place of one start patch: through the parts that rays use, too, to the finishes at their leaves.
+/// The closest place of start patches: through the parts that rays use, too, to the finishes at their leaves.
 #include "nearest_finish.h"
+#include "nearest_queue.h"
 #include "nearest_refining_finish.h"
 #include "patch_tree.h"
 
 namespace shaolin {
 
-/// Branch and bound, depth first, nearest parts first. Which parts are asked depends on the query alone, not on what
-/// other queries have made.
+/// Branch and bound over patches and their parts, the nearest box first. Polynomials are not cut further, as they are
+/// for rays: what their finish needs of them it makes on its own. Which parts are asked depends on the query alone, not
+/// on what other queries have made.
 template <Scheme S>
 class ClosestSearch {
   using Polynomial = RegularPatch<S::face_kind>;
@@ -16,48 +18,65 @@ class ClosestSearch {
  public:
   ClosestSearch(PointApproach& approach, TreeTotals& totals) : approach_(approach), totals_(totals) {}
 
-  /// A place that is nearer than the approach knew: in a patch's parameters, and the level of the piece that holds it.
-  /// Without a patch the place is a corner of the start patch's domain.
+  /// The nearest place: in a patch's parameters, and the level of the piece that holds it. Without a patch the place is
+  /// a corner of the start patch's domain.
   struct Found {
+    int primitive;  ///< which start patch
     const PatchNode<S>* patch;
     Parameter at;
     int level;
   };
 
-  /// Looks through a patch; `slot` holds its parts.
-  void search(const PatchNode<S>& patch, typename Parts<S>::Slot& slot) {
-    if (patch.is_leaf())
-      finish(patch, 0);
-    else
-      descend(patch, slot, false);
+  /// Puts a start patch on the list; `slot` is that of its parts.
+  void add(int primitive, const PatchNode<S>& patch, typename Parts<S>::Slot& slot, const SceneBox& box) {
+    queue_.push(approach_.box_point().distance(box), {primitive, &patch, &slot, Parts<S>::inner});
+  }
+  /// Looks at all on the list that may be nearer than `distance` (in the units of boxes) and than what is found.
+  void run(float distance) {
+    while (!queue_.empty() && queue_.distance() <= std::min(distance, approach_.box_limit())) ask(queue_.pop());
   }
   const std::optional<Found>& found() const { return found_; }
 
  private:
-  void descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny);
-  void finish(const PatchNode<S>& patch, int piece);
-  bool may_be_nearer(const IrregularPatch<S>& patch, bool is_tiny);
-  void take_corner(const IrregularPatch<S>& patch, double error);
+  /// A patch, or a piece of a polynomial one.
+  struct Part {
+    int primitive;
+    const PatchNode<S>* patch;
+    typename Parts<S>::Slot* slot;
+    std::int8_t piece;  ///< as in Parts
+  };
+
+  void ask(const Part& part);
+  void ask_parts(const Part& part);
+  void finish(const Part& part);
+  bool may_be_nearer(const Part& part);
+  void take_corner(const Part& part, double error);
 
   PointApproach& approach_;
   TreeTotals& totals_;
+  NearestQueue<Part> queue_;
   std::optional<Found> found_;
 };
 
 template <Scheme S>
-void ClosestSearch<S>::descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny) {
-  if (!patch.is_polynomial() && !may_be_nearer(static_cast<const IrregularPatch<S>&>(patch), is_tiny)) return;
-  const Parts<S>& parts = Parts<S>::of(patch, slot, approach_.space, totals_);
-  BoxOrder order(parts.first().boxes, approach_.box_point(), approach_.box_limit());
-  if (parts.second()) order.add(parts.second()->boxes, 8, approach_.box_point(), approach_.box_limit());
-  for (std::size_t i = 0; i < order.count() && order.distance(i) <= approach_.box_limit(); ++i) {
-    const std::size_t box = order.box(i);
-    const typename Parts<S>::Eight& eight = box < 8 ? parts.first() : *parts.second();
-    const PatchNode<S>& part = *eight.patch[box % 8];
-    if (const std::int8_t piece = eight.piece[box % 8]; piece >= 0)
-      finish(part, piece);
-    else
-      descend(part, eight.parts[box % 8], piece == Parts<S>::tiny);
+void ClosestSearch<S>::ask(const Part& part) {
+  if (part.patch->is_polynomial() || part.patch->is_leaf())
+    finish(part);
+  else if (may_be_nearer(part))
+    ask_parts(part);
+}
+
+template <Scheme S>
+void ClosestSearch<S>::ask_parts(const Part& part) {
+  const Parts<S>& parts = Parts<S>::of(*part.patch, *part.slot, approach_.space, totals_);
+  alignas(32) std::array<float, 8> entries;
+  for (const typename Parts<S>::Eight* eight : {&parts.first(), parts.second()}) {
+    if (!eight) continue;
+    for (unsigned met = approach_.box_point().meet(eight->boxes, approach_.box_limit(), entries); met != 0;
+         met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      queue_.push(entries[i], {part.primitive, eight->patch[i], &eight->parts[i], eight->piece[i]});
+    }
   }
 }
 
@@ -66,22 +85,22 @@ void ClosestSearch<S>::descend(const PatchNode<S>& patch, typename Parts<S>::Slo
 /// shrink without end: the corner itself is asked, and then nothing is nearer by more than what is uncertain about
 /// their points once they are small enough.
 template <Scheme S>
-bool ClosestSearch<S>::may_be_nearer(const IrregularPatch<S>& patch, bool is_tiny) {
+bool ClosestSearch<S>::may_be_nearer(const Part& part) {
+  const auto& patch = static_cast<const IrregularPatch<S>&>(*part.patch);
   ++approach_.counters.hull_tests;
-  std::vector<Vec3> points = patch.patch().points;
-  for (Vec3& point : points) point = approach_.relative(point);
-  const Box box = hull_of(points);
+  Box box;
+  for (const Vec3& point : patch.patch().points) box.add(approach_.relative(point));
   double error = approach_.error(box.largest_coordinate());
-  if (is_tiny) {
+  if (part.piece == Parts<S>::tiny) {
     error += approach_.length(patch.place().rounding);
-    take_corner(patch, error);
+    take_corner(part, error);
   }
   const double limit = approach_.limit(error), expansion = patch.patch().configuration->hull_expansion();
   if (limit < 0) return false;
   for (const Vec3& way : {approach_.toward(), box.centre()}) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& point : points) {
-      const double along = way.dot(point);
+    for (const Vec3& point : patch.patch().points) {
+      const double along = way.dot(approach_.relative(point));
       low = std::min(low, along);
       high = std::max(high, along);
     }
@@ -97,27 +116,30 @@ bool ClosestSearch<S>::may_be_nearer(const IrregularPatch<S>& patch, bool is_tin
 }
 
 template <Scheme S>
-void ClosestSearch<S>::take_corner(const IrregularPatch<S>& patch, double error) {
+void ClosestSearch<S>::take_corner(const Part& part, double error) {
+  const auto& patch = static_cast<const IrregularPatch<S>&>(*part.patch);
   const Parameter corner = D::nearest(patch.place().domain(D::centre())).array().round();
   for (const auto& [u, v] : D::corners) {
     if (corner != patch.place().domain({u, v})) continue;
     const LimitSample sample = evaluate(patch.patch(), Parameter(u, v));
     if (approach_.take(approach_.relative(sample.position), error))
-      found_ = Found{nullptr, corner, patch.place().level()};
+      found_ = Found{part.primitive, nullptr, corner, patch.place().level()};
   }
 }
 
 template <Scheme S>
-void ClosestSearch<S>::finish(const PatchNode<S>& patch, int number) {
+void ClosestSearch<S>::finish(const Part& part) {
+  const PatchNode<S>& patch = *part.patch;
   if (!patch.is_polynomial()) {
     Patch<S> relative = static_cast<const IrregularPatch<S>&>(patch).patch();
     Box box;
     for (Vec3& point : relative.points) box.add(point = approach_.relative(point));
     // Masks with negative weights amplify rounding, see ExactFinish.
     NearestRefiningFinish<S> finish(4 * approach_.error(box.largest_coordinate()), approach_);
-    if (finish.solve(relative)) found_ = Found{&patch, finish.at(), patch.place().level()};
+    if (finish.solve(relative)) found_ = Found{part.primitive, &patch, finish.at(), patch.place().level()};
     return;
   }
+  const int number = std::max<int>(part.piece, 0);
   const Pieces<Polynomial>& pieces = pieces_of<Polynomial>;
   Net whole, piece;
   approach_.relative(static_cast<const PolynomialPatch<S>&>(patch).net(), whole);
@@ -127,7 +149,7 @@ void ClosestSearch<S>::finish(const PatchNode<S>& patch, int number) {
   NearestFinish<Polynomial> finish(approach_.error(hull_of(piece).largest_coordinate()), approach_);
   if (!finish.solve(piece)) return;
   const SubDomain domain = Pieces<Polynomial>::domain(number);
-  found_ = Found{&patch, domain(finish.at()), patch.place().part(domain).level()};
+  found_ = Found{part.primitive, &patch, domain(finish.at()), patch.place().part(domain).level()};
 }
 
 }  // namespace shaolin

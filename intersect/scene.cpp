@@ -242,15 +242,13 @@ std::optional<ClosestPoint> Scene::Implementation::closest_point(const Vec3& p, 
   const BoxPoint point(bvh_.space()(p), Eigen::Matrix3d::Identity(), 0,
                        {bvh_.space()(bounds_.lower), bvh_.space()(bounds_.upper)});
   double reach = radius;
-  bvh_.traverse(
+  bvh_.nearest_first(
       point, [&] { return point.local(bvh_.space().scale * reach); },
-      [&](int primitive) {
+      [&](int primitive, float) {
         const auto closest = closest_point(leaves_[static_cast<std::size_t>(primitive)], p, reach, counters);
-        if (closest && !(best && best->distance <= closest->distance)) {
-          best = closest;
-          reach = closest->distance;
-        }
-        return false;
+        if (!closest || (best && best->distance <= closest->distance)) return;
+        best = closest;
+        reach = closest->distance;
       });
   return best;
 }

@@ -186,23 +186,19 @@ std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(const PointQuery& 
 {
   if (primitives_.empty()) return {};
   PointApproach approach(query, bvh_.bounds(), bvh_.space(), counters);
-  std::optional<typename ClosestSearch<S>::Found> best;
-  int best_primitive = 0;
-  bvh_.traverse(
+  ClosestSearch<S> search(approach, totals_);
+  bvh_.nearest_first(
       approach.box_point(), [&] { return approach.box_limit(); },
-      [&](int primitive) {
+      [&](int primitive, float distance) {
+        search.run(distance);
+        if (distance > approach.box_limit()) return;
         const StartPatch& start = start_patch(primitive);
-        if (!approach.box_point().meets(start.box(), approach.box_limit())) return false;
-        ClosestSearch<S> search(approach, totals_);
-        search.search(start.patch(), start.parts());
-        if (search.found()) {
-          best = search.found();
-          best_primitive = primitive;
-        }
-        return false;
+        search.add(primitive, start.patch(), start.parts(), start.box());
       });
+  search.run(std::numeric_limits<float>::infinity());
+  const auto& best = search.found();
   if (!best) return {};
-  const auto [face, sub] = primitives_[static_cast<std::size_t>(best_primitive)];
+  const auto [face, sub] = primitives_[static_cast<std::size_t>(best->primitive)];
   ClosestPoint closest;
   closest.level = best->level;
   if (best->patch) {
