@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "box_space.h"
+#include "box_point.h"
+#include "nearest_queue.h"
 
 namespace shaolin {
 
@@ -22,6 +23,11 @@ class Bvh {
   /// may shrink meanwhile. Stops when visit returns true.
   template <class Far, class Visit>
   void traverse(const BoxRay& ray, Far far, Visit visit) const;
+
+  /// Calls visit(primitive, distance) for the primitives whose boxes are not farther from the point than `far()`,
+  /// nearest box first; distances are in the point's units, and `far()` may shrink meanwhile.
+  template <class Far, class Visit>
+  void nearest_first(const BoxPoint& point, Far far, Visit visit) const;
 
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
   const Box& bounds() const { return bounds_; }
@@ -76,6 +82,27 @@ void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
       Entry* at = top++;
       for (; at != first && at[-1].distance < entries[i]; --at) *at = at[-1];
       *at = {node.child[i], entries[i]};
+    }
+  }
+}
+
+template <class Far, class Visit>
+void Bvh::nearest_first(const BoxPoint& point, Far far, Visit visit) const {
+  if (nodes_.empty()) return;
+  NearestQueue<std::int32_t> queue;
+  queue.push(-std::numeric_limits<float>::infinity(), 0);
+  alignas(32) std::array<float, width> entries;
+  while (!queue.empty() && queue.distance() <= far()) {
+    const float distance = queue.distance();
+    const std::int32_t child = queue.pop();
+    if (child < 0) {
+      visit(~child, distance);
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(child)];
+    for (unsigned met = point.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      queue.push(entries[i], node.child[i]);
     }
   }
 }

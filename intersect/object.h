@@ -8,6 +8,7 @@
 #include "../schemes/control_mesh.h"
 #include "box.h"
 #include "chord_options.h"
+#include "closest_point.h"
 #include "counters.h"
 #include "crossings.h"
 #include "ray.h"
@@ -57,6 +58,10 @@ class Object {
 
   /// True if any point of the surface lies on the ray; as intersect(), cheaper.
   virtual bool occluded(const Ray& ray, RayCounters& counters) const = 0;
+
+  /// The closest place within the query's radius, or empty: of its answer, all but distance and instance, in the
+  /// object's space. Throws InputError unless the method is exact.
+  virtual std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const = 0;
 };
 
 /// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces; nothing is

@@ -1,5 +1,7 @@
 #include "placement.h"
 
+#include <Eigen/QR>
+
 namespace shaolin {
 
 Placement::Placement(const Affine& to_world)
@@ -9,6 +11,12 @@ Placement::Placement(const Affine& to_world)
       identity_(to_world.matrix() == Affine::Identity().matrix()) {
   // A power of two, so that squares of lengths stay within range.
   normals_ *= std::scalbn(1.0, -std::ilogb(normals_.cwiseAbs().maxCoeff()));
+  if (!identity_) {
+    const double size = std::scalbn(1.0, std::ilogb(to_world.linear().cwiseAbs().maxCoeff()));
+    const Eigen::HouseholderQR<Eigen::Matrix3d> factors(to_world.linear() / size);
+    metric_ = factors.matrixQR().triangularView<Eigen::Upper>();
+    metric_ *= size;
+  }
 }
 
 std::optional<Ray> Placement::to_object(const Ray& ray) const {

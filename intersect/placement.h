@@ -1,5 +1,5 @@
 #pragma once
-/// An instance's transform, prepared for rays and hits.
+/// An instance's transform, prepared for rays, points and hits.
 #include <optional>
 
 #include "affine.h"
@@ -20,6 +20,13 @@ class Placement {
   /// The ray in the object's space; empty if it leaves the range of doubles there.
   std::optional<Ray> to_object(const Ray& ray) const;
 
+  /// A point in the object's space, rounded; not finite if it leaves the range of doubles there.
+  Vec3 to_object(const Vec3& point) const {
+    return identity_ ? point : Vec3(to_object_ * (point - to_world_.translation()));
+  }
+  /// An upper triangular R under which vectors have the lengths of their images: |R x| = |linear() x|.
+  const Eigen::Matrix3d& metric() const { return metric_; }
+
   /// Position and derivatives go with the map. The normal goes with the inverse transpose, so it stays on its side of
   /// the surface: what was outside is outside. Where the map mirrors, it is thus against du x dv.
   void to_world(LimitSample& sample) const;
@@ -27,6 +34,7 @@ class Placement {
  private:
   Affine to_world_;
   Eigen::Matrix3d to_object_, normals_;  ///< of directions; of normals, up to a positive factor
+  Eigen::Matrix3d metric_ = Eigen::Matrix3d::Identity();
   bool identity_;
 };
 

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "../schemes/errors.h"
+#include "box_point.h"
 #include "bvh.h"
 #include "inside.h"
 #include "placement.h"
@@ -34,6 +35,15 @@ void check(const Ray& ray) {
 bool is_hit(const std::optional<Hit>& answer) { return answer.has_value(); }
 bool is_hit(const std::vector<Crossing>& answer) { return !answer.empty(); }
 bool is_hit(std::size_t answer) { return answer != 0; }
+
+void check(const Vec3& point) {
+  if (!point.allFinite()) throw InputError("point " + text(point) + " is not finite");
+}
+
+void check_radius(double radius) {
+  if (!(radius > 0))
+    throw InputError("radius " + std::to_string(radius) + " is out of range; expected a positive length");
+}
 
 }  // namespace
 
@@ -90,11 +100,29 @@ class Scene::Implementation {
   }
   bool contains(const Vec3& point) const;
   void expect_closed_instances() const;
+
+  std::optional<ClosestPoint> closest_point(const Vec3& p, double radius) const {
+    check(p);
+    check_radius(radius);
+    RayCounters counters;
+    const std::optional<ClosestPoint> answer = closest_point(p, radius, counters);
+    Statistics& local = own_counters();
+    local += counters;
+    ++local.points;
+    return answer;
+  }
+  std::vector<std::optional<ClosestPoint>> closest_points(std::span<const Vec3> points, double radius) const;
+
   Statistics statistics() const;
   const Box& bounds() const { return bounds_; }
   const std::vector<Instance>& instances() const { return instances_; }
 
  private:
+  struct Leaf;
+
+  std::optional<ClosestPoint> closest_point(const Vec3& p, double radius, RayCounters& counters) const;
+  static std::optional<ClosestPoint> closest_point(const Leaf& leaf, const Vec3& p, double radius,
+                                                   RayCounters& counters);
   std::optional<Hit> intersect_instances(const Ray& ray, RayCounters& counters) const;
   bool occluded_by_instances(const Ray& ray, RayCounters& counters) const;
   std::vector<Crossing> all_hits_of_instances(const Ray& ray, RayCounters& counters) const;
@@ -127,8 +155,8 @@ class Scene::Implementation {
   std::vector<Instance> instances_;
   std::vector<const Object*> objects_;  ///< each once
   const Object* sole_ = nullptr;        ///< the only instance's object, if that stands where it is
-  std::vector<Leaf> leaves_;            ///< none if there is a sole object
-  Bvh bvh_;
+  std::vector<Leaf> leaves_;
+  Bvh bvh_;  ///< of leaves; none if there is a sole object
   Box bounds_;
   std::uint64_t serial_ = next_serial();
   mutable tbb::enumerable_thread_specific<Statistics> counters_;
@@ -163,7 +191,6 @@ Scene::Implementation::Implementation(std::vector<Instance> instances) : instanc
   if (instances_.size() == 1 && instances_.front().transform.matrix() == Affine::Identity().matrix()) {
     sole_ = instances_.front().object.get();
     bounds_ = sole_->bounds();
-    leaves_.clear();
     return;
   }
   bvh_ = Bvh(boxes);
@@ -255,7 +282,7 @@ void Scene::Implementation::expect_closed_instances() const {
 }
 
 bool Scene::Implementation::contains(const Vec3& point) const {
-  if (!point.allFinite()) throw InputError("point " + text(point) + " is not finite");
+  check(point);
   expect_closed_instances();
   RayCounters counters;
   bool inside = false;
@@ -278,12 +305,56 @@ bool Scene::Implementation::contains(const Vec3& point) const {
   return inside;
 }
 
+std::optional<ClosestPoint> Scene::Implementation::closest_point(const Leaf& leaf, const Vec3& p, double radius,
+                                                                 RayCounters& counters) {
+  std::optional<ClosestPoint> closest = leaf.object->closest_point({p, leaf.placement, radius}, counters);
+  if (!closest) return {};
+  leaf.placement.to_world(closest->sample);
+  closest->distance = std::min((closest->sample.position - p).stableNorm(), radius);
+  closest->instance = leaf.instance;
+  return closest;
+}
+
+std::optional<ClosestPoint> Scene::Implementation::closest_point(const Vec3& p, double radius,
+                                                                 RayCounters& counters) const {
+  if (leaves_.empty()) return {};
+  if (sole_) return closest_point(leaves_.front(), p, radius, counters);
+  std::optional<ClosestPoint> best;
+  const BoxPoint point(bvh_.space()(p), Eigen::Matrix3d::Identity(), 0,
+                       {bvh_.space()(bounds_.lower), bvh_.space()(bounds_.upper)});
+  double reach = radius;
+  bvh_.nearest_first(
+      point, [&] { return point.local(bvh_.space().scale * reach); },
+      [&](int primitive, float) {
+        const auto closest = closest_point(leaves_[static_cast<std::size_t>(primitive)], p, reach, counters);
+        if (!closest || (best && best->distance <= closest->distance)) return;
+        best = closest;
+        reach = closest->distance;
+      });
+  return best;
+}
+
+std::vector<std::optional<ClosestPoint>> Scene::Implementation::closest_points(std::span<const Vec3> points,
+                                                                               double radius) const {
+  constexpr std::size_t grain = 16;  // points that a thread takes at a time
+  check_radius(radius);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      throw InputError("point " + std::to_string(i) + ": " + text(points[i]) + " is not finite");
+  std::vector<std::optional<ClosestPoint>> answers(points.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), grain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) answers[i] = closest_point(points[i], radius);
+  });
+  return answers;
+}
+
 Statistics Scene::Implementation::statistics() const {
   Statistics total;
   for (const Statistics& local : counters_) {
     total += local;
     total.rays += local.rays;
     total.hits += local.hits;
+    total.points += local.points;
   }
   for (const Object* object : objects_) object->add_to(total);
   total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);
@@ -326,6 +397,12 @@ std::vector<char> Scene::contains(std::span<const Vec3> points) const {
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t i) { answers[i] = static_cast<char>(contains(points[i])); });
   return answers;
+}
+std::optional<ClosestPoint> Scene::closest_point(const Vec3& p, double radius) const {
+  return implementation_->closest_point(p, radius);
+}
+std::vector<std::optional<ClosestPoint>> Scene::closest_points(std::span<const Vec3> points, double radius) const {
+  return implementation_->closest_points(points, radius);
 }
 const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }

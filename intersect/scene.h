@@ -69,6 +69,19 @@ class Scene {
   /// Many points, on as many threads as oneTBB gives; 1 where contains() is true.
   std::vector<char> contains(std::span<const Vec3> points) const;
 
+  /// The point of the surfaces that is closest to p, at most `radius` away, or empty: exact on the limit surface, which
+  /// is refined where it must be to prove that nothing is nearer. A distance exceeds the least one by rounding only: by
+  /// some 1e-14 of the scene's size and its distance from p, at instances of the size of their transforms' numbers. Of
+  /// places equally near to that, the answer is one, by an order that depends on scene and point alone. Throws
+  /// InputError for a point that is not finite, a radius that is not above 0, and where the method is not exact.
+  std::optional<ClosestPoint> closest_point(const Vec3& p,
+                                            double radius = std::numeric_limits<double>::infinity()) const;
+
+  /// Many points, on as many threads as oneTBB gives: answer i is that to points[i] alone, bit for bit. Throws
+  /// InputError that names the first point that closest_point() refuses, before any is asked.
+  std::vector<std::optional<ClosestPoint>> closest_points(
+      std::span<const Vec3> points, double radius = std::numeric_limits<double>::infinity()) const;
+
   const std::vector<Instance>& instances() const;
 
   /// The surface of an instance's object, in the object's own space. Throws InputError if there is no such instance.

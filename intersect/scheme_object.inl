@@ -33,6 +33,12 @@ class SchemeObject final : public Object {
     else
       throw InputError("all hits are those of the limit surface; expected an object of Method::exact");
   }
+  std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const override {
+    if constexpr (requires { intersector_.closest_point(query, counters); })
+      return intersector_.closest_point(query, counters);
+    else
+      throw InputError("closest points are asked of the limit surface itself; expected Method::exact");
+  }
 
  private:
   SchemeSurface<S> surface_;

@@ -10,6 +10,7 @@
 #include "../schemes/scheme_surface.h"
 #include "approach.h"
 #include "bvh.h"
+#include "closest_search.h"
 #include "crossings.h"
 #include "face_bounds.h"
 #include "start_patches.h"
@@ -22,6 +23,12 @@ namespace shaolin {
 template <class Finish>
 concept FindsAll = requires {
   &Finish::search_all;
+};
+
+/// A finish whose start patches have parts (patch_tree.h), through which the closest point is searched.
+template <class Finish>
+concept HasParts = requires(const typename Finish::StartPatch& start) {
+  start.patch().is_polynomial();
 };
 
 /// The part of the algorithm that all finishes share: a hierarchy over the faces, and start patches, made when a ray
@@ -56,6 +63,12 @@ class ShaoLin {
 
   /// All hits with t in [tmin, tmax], see crossings.h. Of a finish that finds the limit surface itself.
   std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const requires FindsAll<Finish<S>>;
+
+  /// The closest place within the query's radius, in the object's space and without a distance; empty if there is none.
+  /// Of places that are equally near to rounding, the one visited first; the order of visits depends on the query
+  /// alone. For finishes whose start patches have parts (exact_finish.h). Throws as intersect() does.
+  std::optional<ClosestPoint> closest_point(const PointQuery& query,
+                                            RayCounters& counters) const requires HasParts<Finish<S>>;
 
   /// A box that holds the surface.
   const Box& bounds() const { return bvh_.bounds(); }
@@ -194,6 +207,38 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
   Hit hit = finish_.hit(best->found, best->primitive.face, best->primitive.sub, surface_);
   hit.t = std::clamp(traversal.t(best->found.distance), ray.tmin, ray.tmax);
   return hit;
+}
+
+template <Scheme S, template <class> class Finish>
+std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
+    const PointQuery& query, RayCounters& counters) const requires HasParts<Finish<S>> {
+  const PatchBudget::Query guard(start_patches_.budget());
+  if (primitives_.empty()) return {};
+  PointApproach approach(query, bvh_.bounds(), bvh_.space(), counters);
+  ClosestSearch<S> search(approach, start_patches_.totals());
+  bvh_.nearest_first(
+      approach.box_point(), [&] { return approach.box_limit(); },
+      [&](int primitive, float distance) {
+        search.run(distance);
+        if (distance > approach.box_limit()) return;
+        const StartPatch& start = start_patch(primitive);
+        search.add(primitive, start.patch(), start.parts(), start.box());
+      });
+  search.run(std::numeric_limits<float>::infinity());
+  const auto& best = search.found();
+  if (!best) return {};
+  const auto [face, sub] = primitives_[static_cast<std::size_t>(best->primitive)];
+  ClosestPoint closest;
+  closest.level = best->level;
+  if (best->patch) {
+    const Hit hit = finish_.hit(Found{best->patch, best->at, best->level, 0}, face, sub, surface_);
+    closest.at = hit.at;
+    closest.sample = hit.sample;
+  } else {
+    closest.at = {face, sub, best->at.x(), best->at.y()};
+    closest.sample = *surface_.evaluate(closest.at);
+  }
+  return closest;
 }
 
 }  // namespace shaolin

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "schemes/text.h"
+#include "tools/cli/number_list.h"
 
 namespace shaolin {
 namespace {
@@ -17,21 +17,6 @@ namespace {
 constexpr int max_image_side = 32768;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// Reads exactly `count` finite numbers with commas between them.
-template <std::size_t count>
-std::optional<std::array<double, count>> parse_list(std::string_view text) {
-  std::array<double, count> numbers;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t comma = text.find(',');
-    if ((comma == std::string_view::npos) != (i + 1 == count)) return std::nullopt;
-    const std::optional<double> number = to_number(text.substr(0, comma));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    numbers[i] = *number;
-    if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
-  }
-  return numbers;
-}
 
 /// The image's up direction before it is made perpendicular to the view.
 Vec3 up_hint(const Vec3& forward, const Vec3& up) {

@@ -6,6 +6,7 @@
 
 #include "schemes/errors.h"
 #include "tools/bench/bench.h"
+#include "tools/cli/closest.h"
 #include "tools/cli/command.h"
 #include "tools/cli/eval.h"
 #include "tools/cli/info.h"
@@ -20,7 +21,8 @@ namespace shaolin {
 namespace {
 
 const char* const description =
-    "Ray queries on the limit surface of subdivision meshes (Loop, Catmull-Clark), without tessellation.\n"
+    "Ray and closest-point queries on the limit surface of subdivision meshes (Loop, Catmull-Clark), without "
+    "tessellation.\n"
     "'shaolin SUBCOMMAND --help' explains a subcommand.";
 
 const char* const footer =
@@ -49,6 +51,7 @@ int parse_and_run(int argc, char** argv) {
   Command command;
   add_render(app, command);
   add_query(app, command);
+  add_closest(app, command);
   add_eval(app, command);
   add_info(app, command);
   add_validate(app, command);
