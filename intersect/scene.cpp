@@ -392,10 +392,21 @@ std::vector<std::size_t> Scene::count(std::span<const Ray> rays) const {
   return implementation_->counted<std::size_t>(rays, &Implementation::count);
 }
 bool Scene::contains(const Vec3& point) const { return implementation_->contains(point); }
+double Scene::signed_distance(const Vec3& point) const {
+  const bool inside = contains(point);
+  const std::optional<ClosestPoint> closest = closest_point(point);
+  const double distance = closest ? closest->distance : std::numeric_limits<double>::infinity();
+  return inside ? -distance : distance;
+}
 std::vector<char> Scene::contains(std::span<const Vec3> points) const {
   std::vector<char> answers(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(),
                     [&](std::size_t i) { answers[i] = static_cast<char>(contains(points[i])); });
+  return answers;
+}
+std::vector<double> Scene::signed_distance(std::span<const Vec3> points) const {
+  std::vector<double> answers(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { answers[i] = signed_distance(points[i]); });
   return answers;
 }
 std::optional<ClosestPoint> Scene::closest_point(const Vec3& p, double radius) const {

@@ -57,6 +57,10 @@ class Scene {
   /// if the point is not finite, if an instance is open (it names the edge), or an object's method is not exact.
   bool contains(const Vec3& point) const;
 
+  /// The distance to the closest point of any surface, negative where contains() is true; infinite for an empty scene.
+  /// Throws as contains() and closest_point() do.
+  double signed_distance(const Vec3& point) const;
+
   /// Many rays, coherent or not, on as many threads as oneTBB gives: answer i is that to rays[i] alone, bit for bit.
   /// They are traced in an order in which rays follow each other that are likely to meet the same patches. Throw
   /// InputError that names the first ray that intersect() refuses, before any is traced. O(n log n) in addition.
@@ -68,6 +72,8 @@ class Scene {
 
   /// Many points, on as many threads as oneTBB gives; 1 where contains() is true.
   std::vector<char> contains(std::span<const Vec3> points) const;
+  /// The same for signed distances.
+  std::vector<double> signed_distance(std::span<const Vec3> points) const;
 
   /// The point of the surfaces that is closest to p, at most `radius` away, or empty: exact on the limit surface, which
   /// is refined where it must be to prove that nothing is nearer. A distance exceeds the least one by rounding only: by

@@ -43,6 +43,21 @@ TEST_CASE("A flat cube contains what its box does, whichever way its faces are w
   }
 }
 
+TEST_CASE("Signed distances are negative inside", "[intersect][contains]") {
+  const Scene scene(cube(), "bilinear");
+  Random random(5);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 200; ++i) points.push_back(2 * random.point());
+  const std::vector<double> answers = scene.signed_distance(std::span(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 beyond = points[i].cwiseAbs() - Vec3::Ones();  // of the cube [-1, 1]^3
+    const double outside = beyond.cwiseMax(0).norm(), expected = outside > 0 ? outside : beyond.maxCoeff();
+    CHECK(std::abs(answers[i] - expected) < 1e-14);
+    CHECK(scene.signed_distance(points[i]) == answers[i]);
+  }
+  CHECK(Scene(std::vector<Instance>{}).signed_distance(Vec3::Zero()) == std::numeric_limits<double>::infinity());
+}
+
 TEST_CASE("Points beside a closed surface are on the side that the normal says", "[intersect][contains][sweep]") {
   int models = 0;
   for (const Model& model : all_models()) {
