@@ -196,7 +196,7 @@ TEST_CASE("Of a box that stays a box, distances are known", "[intersect][closest
 
 TEST_CASE("A flat sheet is met straight below, beyond its border at the border", "[intersect][closest]") {
   for (const char* scheme : {"catmark", "loop"}) {
-    const Scene scene(sheet(scheme, 4, 3), scheme);
+    const Scene scene(with_boundary(sheet(scheme, 4, 3), BoundaryInterpolation::edge_and_corner), scheme);
     const auto above = scene.closest_point({1.3, 1.1, 0.7}), beside = scene.closest_point({1.3, -2, 0}),
                corner = scene.closest_point({-3, -4, 0});
     REQUIRE((above && beside && corner));
@@ -204,7 +204,7 @@ TEST_CASE("A flat sheet is met straight below, beyond its border at the border",
     CHECK((above->sample.position - Vec3(1.3, 1.1, 0)).norm() < 1e-14);
     CHECK(std::abs(std::abs(above->sample.normal.z()) - 1) < 1e-15);
     CHECK(std::abs(beside->distance - 2) < 1e-15);
-    CHECK(std::abs(corner->distance - 5) < 1e-14);
+    if (scheme == std::string("catmark")) CHECK(std::abs(corner->distance - 5) < 1e-14);  // of one face, hence sharp
   }
 }
 
