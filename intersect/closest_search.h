@@ -92,7 +92,11 @@ bool ClosestSearch<S>::may_be_nearer(const Part& part) {
   Box box;
   for (const Vec3& point : patch.patch().points) box.add(approach_.relative(point));
   const double error = error_of(box, part);
-  if (part.piece == Parts<S>::tiny) take_corner(part, error);
+  if (part.piece == Parts<S>::tiny) {
+    take_corner(part, error);
+    // The point is the corner, as far as that is known.
+    if (approach_.limit(approach_.length(patch.place().rounding)) < 0) return false;
+  }
   const double limit = approach_.limit(error), expansion = patch.patch().configuration->hull_expansion();
   if (limit < 0) return false;
   for (const Vec3& way : {approach_.toward(), box.centre()}) {
@@ -114,12 +118,11 @@ bool ClosestSearch<S>::may_be_nearer(const Part& part) {
 }
 
 /// The error of distances from a part with this hull. In one that is as small as its points are uncertain there is
-/// nothing to tell apart: rounding has collapsed it to a few points, and its shape is an accident. Of a tiny one the
-/// corner is known, and the rest is not worth more.
+/// nothing to tell apart: rounding has collapsed it to a few points, and its shape is an accident.
 template <Scheme S>
 double ClosestSearch<S>::error_of(const Box& hull, const Part& part) const {
   const double uncertain = approach_.length(part.patch->place().rounding);
-  const bool is_point = part.piece == Parts<S>::tiny || (hull.upper - hull.lower).maxCoeff() <= uncertain;
+  const bool is_point = (hull.upper - hull.lower).maxCoeff() <= uncertain;
   return approach_.error(hull.largest_coordinate()) + (is_point ? uncertain : 0);
 }
 
