@@ -16,9 +16,12 @@ class BoxPoint {
  public:
   /// What moves computed distances by up to `error` is for the caller to say; what rounding does here is added: |R|
   /// (|q|
-  /// + |y|), with |y| below 4, is good to 64 u.
+  /// + |y|), with |y| below 4, is good to 64 u. (Sums of magnitudes, which are no less than lengths, have no squares to
+  /// leave the range of numbers.) The metric is to bring distances to about 1, for the same reason.
   BoxPoint(const Vec3& point, const Eigen::Matrix3d& metric, double error, const Box& all)
-      : point_(point), metric_(metric), slack_(error + 64 * unit_roundoff * metric.norm() * (point.norm() + 4)) {
+      : point_(point),
+        metric_(metric),
+        slack_(error + 64 * unit_roundoff * metric.lpNorm<1>() * (point.lpNorm<1>() + 4)) {
     start_ = std::sqrt(squared_distance(all.lower, all.upper));
   }
 

@@ -51,6 +51,7 @@ class ClosestSearch {
   void finish(const Part& part);
   bool may_be_nearer(const Part& part);
   void take_corner(const Part& part, double error);
+  double error_of(const Box& hull, const Part& part) const;
 
   PointApproach& approach_;
   TreeTotals& totals_;
@@ -82,18 +83,19 @@ void ClosestSearch<S>::ask_parts(const Part& part) {
 
 /// The limit lies in the hull of the points, expanded. A plane across the way to the nearest place so far shows best
 /// that none of it is nearer; if it is elsewhere, one across the way to the patch. Around an irregular corner patches
-/// shrink without end: the corner itself is asked, and then nothing is nearer by more than what is uncertain about
-/// their points once they are small enough.
+/// shrink without end: the corner itself is asked, and then nothing is nearer by more than the error once they are
+/// small enough.
 template <Scheme S>
 bool ClosestSearch<S>::may_be_nearer(const Part& part) {
   const auto& patch = static_cast<const IrregularPatch<S>&>(*part.patch);
   ++approach_.counters.hull_tests;
   Box box;
   for (const Vec3& point : patch.patch().points) box.add(approach_.relative(point));
-  double error = approach_.error(box.largest_coordinate());
+  const double error = error_of(box, part);
   if (part.piece == Parts<S>::tiny) {
-    error += approach_.length(patch.place().rounding);
     take_corner(part, error);
+    // The point is the corner, as far as that is known.
+    if (approach_.limit(approach_.length(patch.place().rounding)) < 0) return false;
   }
   const double limit = approach_.limit(error), expansion = patch.patch().configuration->hull_expansion();
   if (limit < 0) return false;
@@ -113,6 +115,15 @@ bool ClosestSearch<S>::may_be_nearer(const Part& part) {
     throw InputError("a patch does not shrink to a point in " + std::to_string(most_levels) +
                      " levels: the masks of the scheme do not converge; see 'shaolin scheme check'");
   return true;
+}
+
+/// The error of distances from a part with this hull. In one that is as small as its points are uncertain there is
+/// nothing to tell apart: rounding has collapsed it to a few points, and its shape is an accident.
+template <Scheme S>
+double ClosestSearch<S>::error_of(const Box& hull, const Part& part) const {
+  const double uncertain = approach_.length(part.patch->place().rounding);
+  const bool is_point = (hull.upper - hull.lower).maxCoeff() <= uncertain;
+  return approach_.error(hull.largest_coordinate()) + (is_point ? uncertain : 0);
 }
 
 template <Scheme S>
@@ -135,7 +146,7 @@ void ClosestSearch<S>::finish(const Part& part) {
     Box box;
     for (Vec3& point : relative.points) box.add(point = approach_.relative(point));
     // Masks with negative weights amplify rounding, see ExactFinish.
-    NearestRefiningFinish<S> finish(4 * approach_.error(box.largest_coordinate()), approach_);
+    NearestRefiningFinish<S> finish(4 * error_of(box, part), approach_);
     if (finish.solve(relative)) found_ = Found{part.primitive, &patch, finish.at(), patch.place().level()};
     return;
   }
@@ -146,7 +157,7 @@ void ClosestSearch<S>::finish(const Part& part) {
   pieces.restrict_to(number, whole.x, piece.x);
   pieces.restrict_to(number, whole.y, piece.y);
   pieces.restrict_to(number, whole.z, piece.z);
-  NearestFinish<Polynomial> finish(approach_.error(hull_of(piece).largest_coordinate()), approach_);
+  NearestFinish<Polynomial> finish(error_of(hull_of(piece), part), approach_);
   if (!finish.solve(piece)) return;
   const SubDomain domain = Pieces<Polynomial>::domain(number);
   found_ = Found{part.primitive, &patch, domain(finish.at()), patch.place().part(domain).level()};

@@ -30,13 +30,16 @@ PointApproach::PointApproach(const PointQuery& query, const Box& bounds, const B
       box_point_([&] {
         const Vec3 asked = in_boxes(query.placement.to_object(query.point), boxes);
         const Vec3 local = boxes.centre + asked / boxes.scale;
-        const double size = linear_.norm() * ((local - bounds.centre()).norm() + (bounds.upper - bounds.lower).norm());
+        const double size =
+            linear_.lpNorm<1>() * ((local - bounds.centre()).lpNorm<1>() + (bounds.upper - bounds.lower).lpNorm<1>());
         scale_ = to_unit(size);
+        stretch_ = scale_ * linear_.stableNorm();
         double error = 0;
         if (!is_identity_) {
-          const double sum = linear_.norm() * std::max(local.norm(), bounds.largest_coordinate()) + offset_.norm();
+          const double sum =
+              linear_.lpNorm<1>() * std::max(local.lpNorm<1>(), bounds.largest_coordinate()) + offset_.lpNorm<1>();
           map_error_ = 16 * unit_roundoff * scale_ * sum;
-          error = scale_ * (linear_ * local + offset_).norm() + map_error_;
+          error = scale_ * (linear_ * local + offset_).lpNorm<1>() + map_error_;
         } else if (boxes(point_) != asked) {
           error = std::numeric_limits<double>::infinity();
         }

@@ -34,7 +34,7 @@ class PointApproach {
   double error(double size) const { return 32 * unit_roundoff * size + map_error_; }
 
   /// A bound of how long a vector of the object's space is here whose coordinates are at most `size`.
-  double length(double size) const { return scale_ * linear_.norm() * size; }
+  double length(double size) const { return stretch_ * size; }
 
   /// What is farther than this is of no interest, of distances known to within an error. (Nothing that the radius may
   /// hold is dropped; against a place that was found, the error makes a difference that is none.)
@@ -52,7 +52,7 @@ class PointApproach {
   bool is_identity_;
   Eigen::Matrix3d linear_;
   Vec3 point_, offset_;
-  double scale_ = 1, map_error_ = 0;
+  double scale_ = 1, stretch_ = 0, map_error_ = 0;
   BoxPoint box_point_;
   double distance_;
   float box_limit_ = 0;

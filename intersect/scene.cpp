@@ -320,11 +320,15 @@ std::optional<ClosestPoint> Scene::Implementation::closest_point(const Vec3& p, 
   if (leaves_.empty()) return {};
   if (sole_) return closest_point(leaves_.front(), p, radius, counters);
   std::optional<ClosestPoint> best;
-  const BoxPoint point(bvh_.space()(p), Eigen::Matrix3d::Identity(), 0,
+  const Vec3 in_boxes = bvh_.space()(p);
+  const bool is_finite = in_boxes.allFinite();
+  const double unit = is_finite ? 1 / power_of_two_below(in_boxes.lpNorm<1>() + 1) : 1;
+  const BoxPoint point(is_finite ? in_boxes : Vec3(Vec3::Zero()), unit * Eigen::Matrix3d::Identity(),
+                       is_finite ? 0 : std::numeric_limits<double>::infinity(),
                        {bvh_.space()(bounds_.lower), bvh_.space()(bounds_.upper)});
   double reach = radius;
   bvh_.nearest_first(
-      point, [&] { return point.local(bvh_.space().scale * reach); },
+      point, [&] { return point.local(unit * (bvh_.space().scale * reach)); },
       [&](int primitive, float) {
         const auto closest = closest_point(leaves_[static_cast<std::size_t>(primitive)], p, reach, counters);
         if (!closest || (best && best->distance <= closest->distance)) return;
