@@ -40,7 +40,12 @@ class NearestFinish {
 
   /// A cell's parameters p stand for origin + scale * p, per coordinate.
   void visit(const Net& cell, const Parameter& origin, const Parameter& scale);
-  bool is_settled(const Net& cell, const Parameter& origin, const Parameter& scale);
+  bool settle(const Net& cell, const Parameter& origin, const Parameter& scale);
+  bool take(const Vec3& place, const Parameter& at) {
+    if (!approach_.take(place, error_)) return false;
+    at_ = at;
+    return found_ = true;
+  }
   void split(const Net& cell, const Parameter& origin, const Parameter& scale);
 
   double limit() const { return approach_.limit(error_ * std::exp2(std::min(5, cells_ / patience))); }
@@ -78,14 +83,13 @@ SHAOLIN_FLATTEN void NearestFinish<Bezier>::visit(const Net& cell, const Paramet
   ++approach_.counters.cells;
   ++cells_;
   if (hull_distance(cell) > limit() || distance_along(cell, approach_.toward()) > limit()) return;
-  if (is_settled(cell, origin, scale) || scale.cwiseAbs().maxCoeff() <= smallest) return;
+  if (settle(cell, origin, scale) || scale.cwiseAbs().maxCoeff() <= smallest) return;
   split(cell, origin, scale);
 }
 
 /// True if no place of the cell is nearer than what is known now.
 template <class Bezier>
-SHAOLIN_FLATTEN bool NearestFinish<Bezier>::is_settled(const Net& cell, const Parameter& origin,
-                                                       const Parameter& scale) {
+SHAOLIN_FLATTEN bool NearestFinish<Bezier>::settle(const Net& cell, const Parameter& origin, const Parameter& scale) {
   const auto is_far = [&](double squared) { return squared > 0 && std::sqrt(squared) > limit(); };
   const Bezier patch = cell.bezier<Bezier>();
   Parameter at = D::centre();
@@ -95,10 +99,7 @@ SHAOLIN_FLATTEN bool NearestFinish<Bezier>::is_settled(const Net& cell, const Pa
     ++approach_.counters.newton_steps;
     const Vec3 place = patch.position(at);
     const Derivatives d = patch.derivatives(at);
-    if (approach_.take(place, error_)) {
-      at_ = origin + scale.cwiseProduct(at);
-      found_ = true;
-    }
+    const bool is_nearer = take(place, origin + scale.cwiseProduct(at));
     if (limit() < 0) return true;
     if (i == 0 && distance_along(cell, place) > limit()) return true;
     const double squared = place.squaredNorm();
@@ -108,11 +109,14 @@ SHAOLIN_FLATTEN bool NearestFinish<Bezier>::is_settled(const Net& cell, const Pa
       below = all.below();
     }
     const Eigen::Vector2d gradient(2 * d.du.dot(place), 2 * d.dv.dot(place));
-    if (is_far(squared + lowest<D>({at, gradient, *below}).change)) return true;
+    const bool is_settled = is_far(squared + lowest<D>({at, gradient, *below}).change);
+    if (is_settled && !is_nearer) return true;
     const Hessian hessian{2 * (d.du.squaredNorm() + d.duu.dot(place)), 2 * (d.du.dot(d.dv) + d.duv.dot(place)),
                           2 * (d.dv.squaredNorm() + d.dvv.dot(place))};
     const Parameter next = lowest<D>({at, gradient, hessian}).at;
-    if (next == at) break;
+    // The step from the nearest place wins the digits that the proof could do without.
+    if (is_settled) take(patch.position(next), origin + scale.cwiseProduct(next));
+    if (is_settled || next == at) return is_settled;
     at = next;
   }
   return false;

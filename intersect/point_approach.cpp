@@ -37,7 +37,8 @@ PointApproach::PointApproach(const PointQuery& query, const Box& bounds, const B
         double error = 0;
         if (!is_identity_) {
           const double sum =
-              linear_.lpNorm<1>() * std::max(local.lpNorm<1>(), bounds.largest_coordinate()) + offset_.lpNorm<1>();
+              linear_.cwiseAbs().rowwise().sum().maxCoeff() * std::max(local.lpNorm<1>(), bounds.largest_coordinate()) +
+              offset_.lpNorm<1>();
           map_error_ = 16 * unit_roundoff * scale_ * sum;
           error = scale_ * (linear_ * local + offset_).lpNorm<1>() + map_error_;
         } else if (boxes(point_) != asked) {

@@ -153,7 +153,7 @@ TEST_CASE("The closest point is that of brute force: all models, many points", "
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
     if ((scene.bounds().lower.array() > scene.bounds().upper.array()).any()) continue;
-    check_against_brute_force(model, 150, model.mesh.face_count() > 1500 ? 4 : 8);
+    check_against_brute_force(model, 60, model.mesh.face_count() > 1500 ? 4 : 8);
   }
 }
 
