@@ -277,7 +277,8 @@ TEST_CASE("Distances from instances are those from the transformed control mesh"
   }
 }
 
-TEST_CASE("Among many instances the closest one to a point answers, with its index", "[intersect][closest][instances]") {
+TEST_CASE("Among many instances the closest one to a point answers, with its index",
+          "[intersect][closest][instances]") {
   Random random(16);
   const auto one = make_object(shaken(prism(5), 0.1), "catmark"), other = make_object(tetrahedron(), "loop");
   std::vector<Instance> instances;
