@@ -361,7 +361,7 @@ Statistics Scene::Implementation::statistics() const {
     total.points += local.points;
   }
   for (const Object* object : objects_) object->add_to(total);
-  total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);
+  if (!sole_) total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);
   return total;
 }
 
