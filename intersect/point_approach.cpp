@@ -33,7 +33,7 @@ PointApproach::PointApproach(const PointQuery& query, const Box& bounds, const B
         const double size =
             linear_.lpNorm<1>() * ((local - bounds.centre()).lpNorm<1>() + (bounds.upper - bounds.lower).lpNorm<1>());
         scale_ = to_unit(size);
-        stretch_ = scale_ * linear_.stableNorm();
+        stretch_ = scale_ * linear_.reshaped().stableNorm();  // (of a matrix, Eigen 3.4 takes rows that are not there)
         double error = 0;
         if (!is_identity_) {
           const double sum =
