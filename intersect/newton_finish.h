@@ -220,7 +220,8 @@ bool NewtonFinish<Bezier>::is_no_nearer(const Net& cell) const {
 
 /// Of all hits: true if a point of the cell that lies on the ray is one that is known, to within what rounding leaves
 /// uncertain. Where u and v run along one curve, as at a crease's end between two of its edges, cells without number
-/// hold the same point. Cells seen edge-on have no such point: they are looked into.
+/// hold the same point. Cells seen edge-on have no such point: they are looked into. Nor do they share one with a hit
+/// that is proven, which has its cell to itself.
 template <class Bezier>
 bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
   const std::size_t count = all_->size(), first = std::max(own_first_, count - std::min<std::size_t>(count, 8));
@@ -230,7 +231,7 @@ bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
   const double room = 16 * error_ * (1 + ab.cwiseAbs().sum());
   const Range range = on_ray(cell, ab);
   return std::any_of(all_->begin() + static_cast<std::ptrdiff_t>(first), all_->end(), [&](const PatchHit& hit) {
-    return range.low >= hit.distance - room && range.high <= hit.distance + room;
+    return !hit.is_proven && range.low >= hit.distance - room && range.high <= hit.distance + room;
   });
 }
 
