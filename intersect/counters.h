@@ -9,6 +9,7 @@ struct RayCounters {
   std::uint64_t hull_tests = 0;  ///< RP/CP tests of a patch's control points
   std::uint64_t cells = 0;       ///< parameter cells that the exact finish looked at, or triangles of a tessellation
   std::uint64_t newton_steps = 0;
+  std::uint64_t uncertified = 0;  ///< hits that were given as answers, or decided them, without proof (certificate.h)
 
   // Of Method::chord and Method::a3:
   std::uint64_t chord_tests = 0;   ///< leaves whose chord triangles rays were intersected with
@@ -22,6 +23,7 @@ struct RayCounters {
     hull_tests += other.hull_tests;
     cells += other.cells;
     newton_steps += other.newton_steps;
+    uncertified += other.uncertified;
     chord_tests += other.chord_tests;
     w_cases += other.w_cases;
     gap_polygons += other.gap_polygons;

@@ -75,6 +75,11 @@ Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, c
 
 }  // namespace
 
+std::uint64_t count_uncertified(const std::vector<Crossing>& crossings) {
+  const auto is_uncertified = [](const Crossing& crossing) { return !crossing.hit.certificate.is_certified(); };
+  return static_cast<std::uint64_t>(std::count_if(crossings.begin(), crossings.end(), is_uncertified));
+}
+
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
   const ControlMesh& mesh = surface.control_mesh();
   const auto place = [](const Contact& c) { return std::tie(c.distance, c.hit.at.face, c.hit.at.sub); };

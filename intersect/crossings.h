@@ -23,6 +23,9 @@ struct Crossing {
   Sense sense = Sense::touches;
 };
 
+/// How many of them are not certified.
+std::uint64_t count_uncertified(const std::vector<Crossing>& crossings);
+
 /// A point that one patch reports: on the ray to within rounding.
 struct Contact {
   Hit hit;

@@ -2,6 +2,8 @@
 /// The exact finish: patches are split until a Newton iteration on the limit surface is safe. It goes beyond the paper:
 /// hits are on the limit surface to rounding error, so no gap polygon and no W-case can arise.
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "../schemes/scheme_surface.h"
@@ -65,9 +67,16 @@ class ExactFinish {
     Parameter at;
     int level;
     double distance;
-    double reach = 0;        ///< see PatchHit
-    bool is_proven = false;  ///< see PatchHit
-    double error = 0;        ///< of coordinates in the ray's frame
+    double reach = 0;                                         ///< see PatchHit
+    bool is_proven = false;                                   ///< see PatchHit
+    double radius = std::numeric_limits<double>::infinity();  ///< see PatchHit
+    double error = 0;                                         ///< of coordinates in the ray's frame
+
+    /// See certificate.h.
+    bool is_certified() const {
+      if (!(radius < 1) || !patch->is_polynomial()) return false;
+      return holds_disc(at, radius) || (radius <= smooth_radius && polynomial_of(*patch).is_smooth_across());
+    }
   };
 
   template <Query query>
@@ -91,6 +100,7 @@ class ExactFinish {
     hit.at = {face, sub, at.x(), at.y()};
     hit.level = found.level;
     hit.sample = sample(found, hit.at, surface);
+    if (found.is_certified()) hit.certificate = {Certificate::Status::certified, 0, position_error(found)};
     return hit;
   }
 
@@ -140,7 +150,7 @@ class ExactFinish {
 
     /// The nearest hit so far, in the patch's parameters, or one of all.
     void take(const PatchNode<S>& patch, const PatchHit& hit, int level) {
-      const Found taken{&patch, hit.at, level, hit.distance, hit.reach, hit.is_proven, error_};
+      const Found taken{&patch, hit.at, level, hit.distance, hit.reach, hit.is_proven, hit.radius, error_};
       if (all) return all->push_back(taken);
       found = taken;
       approach_.shorten(hit.distance);
@@ -164,6 +174,17 @@ class ExactFinish {
     double error_ = 0;
   };
 
+  static const PolynomialPatch<S>& polynomial_of(const PatchNode<S>& patch) {
+    return static_cast<const PolynomialPatch<S>&>(patch);
+  }
+  /// Across a side where second derivatives agree, a patch and its neighbour's polynomial differ by the third power of
+  /// the distance: at this one, by less than rounding.
+  static constexpr double smooth_radius = 0x1p-20;
+  static bool holds_disc(const Parameter& centre, double radius) {
+    return D::contains(centre - Parameter(radius, radius)) && D::contains(centre + Parameter(radius, radius)) &&
+           D::contains(centre + Parameter(radius, -radius)) && D::contains(centre + Parameter(-radius, radius));
+  }
+  static double position_error(const Found& found);
   static LimitSample sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface);
   static LimitSample polynomial_sample(const Found& found);
 };
@@ -180,16 +201,25 @@ LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& a
   // The position stays the patch's own: near u or v = 1 parameters are too coarse to find it again.
   LimitSample sample = *surface.evaluate(at);
   if (is_polynomial)
-    sample.position = static_cast<const PolynomialPatch<S>&>(*found.patch).polynomial().position(found.at);
+    sample.position = polynomial_of(*found.patch).polynomial().position(found.at);
   else if (!found.patch->is_leaf())
     sample.position = static_cast<const IrregularPatch<S>&>(*found.patch).patch().points.front();
   return sample;
 }
 
+/// Of a certified hit: the zero is within the radius, over which the surface moves by no more than its derivatives
+/// there say. Those are at most the degree times differences of control points, in a disc that leaves the patch by so
+/// little, too. Both positions carry the error of coordinates.
+template <Scheme S>
+double ExactFinish<S>::position_error(const Found& found) {
+  const Box hull = hull_of(polynomial_of(*found.patch).net());
+  const double steepest = Polynomial::degree * (hull.upper - hull.lower).norm();
+  return 1.024 * std::numbers::sqrt2 * steepest * found.radius + 2 * std::numbers::sqrt3 * found.error;
+}
+
 template <Scheme S>
 SHAOLIN_FLATTEN LimitSample ExactFinish<S>::polynomial_sample(const Found& found) {
-  LimitSample sample =
-      detail::sample(static_cast<const PolynomialPatch<S>&>(*found.patch).polynomial(), found.at, Vec3::Zero(), {});
+  LimitSample sample = detail::sample(polynomial_of(*found.patch).polynomial(), found.at, Vec3::Zero(), {});
   const Parameter inverse = found.patch->place().domain.scale.cwiseInverse();
   Derivatives& d = *sample.derivatives;
   d.du *= inverse.x();
@@ -229,7 +259,7 @@ void ExactFinish<S>::Search::descend(const PatchNode<S>& patch, typename Parts<S
 template <Scheme S>
 bool ExactFinish<S>::Search::may_meet(const PatchNode<S>& patch, bool is_tiny) {
   ++approach_.counters.hull_tests;
-  if (patch.is_polynomial()) return may_meet(frame().hull(static_cast<const PolynomialPatch<S>&>(patch).net()));
+  if (patch.is_polynomial()) return may_meet(frame().hull(polynomial_of(patch).net()));
   const Patch<S>& irregular = static_cast<const IrregularPatch<S>&>(patch).patch();
   const Box hull = frame().hull(irregular.points).expanded(irregular.configuration->hull_expansion());
   if (!may_meet(hull)) return false;
@@ -252,12 +282,13 @@ template <Scheme S>
 void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   if (!patch.is_polynomial()) return finish_by_refinement(static_cast<const IrregularPatch<S>&>(patch));
   Net cell;
-  if (!project(static_cast<const PolynomialPatch<S>&>(patch).net(), number, cell)) return;
+  if (!project(polynomial_of(patch).net(), number, cell)) return;
   NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
                                   approach_.counters);
   solve(solver, cell, [&](PatchHit hit) {
     const SubDomain piece = Pieces<Polynomial>::domain(number);
     hit.at = piece(hit.at);
+    hit.radius *= piece.scale.cwiseAbs().maxCoeff();
     take(patch, hit, patch.place().part(piece).level());
   });
 }

@@ -21,6 +21,9 @@ struct PatchHit {
   double distance = std::numeric_limits<double>::infinity();
   double reach = 0;        ///< how far the piece of surface that it stands for goes along the ray
   bool is_proven = false;  ///< to be the only one of its cell
+  /// In the parameters: the zero of the exact map is proven to be no farther. It may lie beyond the patch's sides,
+  /// where its polynomial goes on. Infinite if nothing is proven.
+  double radius = std::numeric_limits<double>::infinity();
 };
 
 /// Finds the nearest zero of (x, y) with z in [near, far] on a Bezier patch given in a ray's frame (x, y: distances
@@ -94,6 +97,8 @@ class NewtonFinish {
   bool is_known(const Net& cell) const;
   double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
   Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
+  double zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
+                     const Matrix& flattening, double contraction) const;
   /// Of a hit in a cell's parameters.
   void accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale);
 
@@ -119,6 +124,7 @@ void NewtonFinish<Bezier>::accept(const PatchHit& hit, const Parameter& origin, 
   if (hit.distance < near_ - error_ || hit.distance > horizon()) return;
   PatchHit own = hit;
   own.at = origin + scale.cwiseProduct(hit.at);
+  own.radius = scale.cwiseAbs().maxCoeff() * hit.radius;
   if (all_) return all_->push_back(own);
   best_ = own;
   found_ = has_hit_ = true;
@@ -306,10 +312,12 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     constexpr double shortest = 1e-8;
     const bool is_last = step.squaredNorm() <= shortest * shortest;
     if (on_ray || (is_last && D::contains(at + step))) {
+      const Eigen::Vector2d whole = is_last ? step : Eigen::Vector2d::Zero();
       const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
       std::array<double, 4> at_z;
       evaluation(cell.z).store(at_z.data());
-      hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true};
+      hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true,
+             zero_radius(f, jacobian, whole, flattening, contraction) + (whole - last).norm()};
       return Verdict::found;
     }
     const Parameter next = D::nearest(at + step);
@@ -317,6 +325,27 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     at = next;
   }
   return Verdict::unknown;
+}
+
+/// How far at most the zero of the exact map lies from at + step, by the contraction principle; infinite if that proves
+/// none. `f` and `jacobian` are the map and its derivative at `at`.
+///
+/// The exact map's control values differ from the given ones by at most the error, so its values by |flattening|
+/// sqrt(2) error, and derivatives, differences of control values times a degree of at most 4, by 16 |flattening| error
+/// in all. The disc may leave the cell by 2^-10: there the control values of |identity - g'|, of degree at most 6, grow
+/// by (1 + 4 * 2^-10)^6 < 1.024. After the step g is what the linear map leaves, and half of the second derivative's at
+/// most 6 q |step_u + step_v|^2 (it is differences of values within q < 1 of each other, times at most 3): 7 |step|^2
+/// covers both, and the rounding of the parameters 2^-52.
+template <class Bezier>
+double NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
+                                         const Matrix& flattening, double contraction) const {
+  const double size = flattening.norm();
+  const double q = 1.024 * (contraction + 16 * size * error_);
+  if (!(q < 1)) return std::numeric_limits<double>::infinity();
+  const double value =
+      (flattening * (f + jacobian * step)).norm() + 7 * step.squaredNorm() + size * error_ * (1.5 + 16 * step.norm());
+  const double radius = value / (1 - q) + 0x1p-52;
+  return radius <= 0x1p-10 ? radius : std::numeric_limits<double>::infinity();
 }
 
 /// The axis along which alone a cell is to be halved: seen from the ray its points move 16 times as far along it as

@@ -67,8 +67,11 @@ class PolynomialPatch final : public PatchNode<S> {
   using Polynomial = RegularPatch<S::face_kind>;
 
   /// What so many halvings have left of a polynomial.
-  PolynomialPatch(const Polynomial& polynomial, const Place& place, int halvings = 0)
-      : PatchNode<S>(place, true, is_leaf(polynomial, halvings)), halvings_(halvings), net_(polynomial) {}
+  PolynomialPatch(const Polynomial& polynomial, const Place& place, bool is_smooth_across, int halvings = 0)
+      : PatchNode<S>(place, true, is_leaf(polynomial, halvings)),
+        is_smooth_across_(is_smooth_across),
+        halvings_(halvings),
+        net_(polynomial) {}
 
   /// True for a polynomial flat enough for the finish to take on: its derivatives stay within 0.45 of the mean
   /// ones, so that seen from most directions the projection to the ray's frame is one to one. (A smaller share makes
@@ -76,6 +79,9 @@ class PolynomialPatch final : public PatchNode<S> {
   /// beyond ten halvings the finish splits on its own.
   static bool is_leaf(const Polynomial& polynomial, int halvings);
 
+  /// True where the polynomials beyond all sides and corners are known to continue this one to second order: all its
+  /// spline's points are the surface's, with no crease and no irregular vertex next to it.
+  bool is_smooth_across() const { return is_smooth_across_; }
   const Net& net() const { return net_; }
   Polynomial polynomial() const { return net_.bezier<Polynomial>(); }
   int halvings() const { return halvings_; }
@@ -83,6 +89,7 @@ class PolynomialPatch final : public PatchNode<S> {
   std::uint64_t bytes() const override { return sizeof *this; }
 
  private:
+  bool is_smooth_across_;
   int halvings_;
   Net net_;
 };
@@ -162,6 +169,7 @@ class Parts {
     int number = 0;              ///< of the piece, see pieces.h
     Polynomial polynomial = {};  ///< the piece
     int halvings = 0;            ///< that led to it
+    bool is_smooth_across = false;
   };
 
   static Part whole(const PatchNode<S>& patch);
@@ -183,7 +191,7 @@ std::unique_ptr<PatchNode<S>> PatchNode<S>::make(Patch<S> patch, const Place& pl
   if (!patch.is_regular()) return std::make_unique<IrregularPatch<S>>(std::move(patch), place);
   const auto polynomial = patch.regular();
   check_finite(polynomial.b);
-  return std::make_unique<PolynomialPatch<S>>(polynomial, place);
+  return std::make_unique<PolynomialPatch<S>>(polynomial, place, patch.configuration->layout()->is_smooth_across());
 }
 
 template <Scheme S>
@@ -293,8 +301,10 @@ template <Scheme S>
 auto Parts<S>::whole(const PatchNode<S>& patch) -> Part {
   Part part{&patch, patch.bound(), patch.is_leaf()};
   if (patch.is_polynomial() && !part.is_leaf) {
-    part.polynomial = static_cast<const PolynomialPatch<S>&>(patch).polynomial();
-    part.halvings = static_cast<const PolynomialPatch<S>&>(patch).halvings();
+    const auto& polynomial = static_cast<const PolynomialPatch<S>&>(patch);
+    part.polynomial = polynomial.polynomial();
+    part.halvings = polynomial.halvings();
+    part.is_smooth_across = polynomial.is_smooth_across();
   }
   return part;
 }
@@ -323,7 +333,8 @@ void Parts<S>::take_apart(const Part& part, std::vector<Part>& parts) {
     for (std::size_t k = 0; k < Cuts::parts; ++k) {
       const Polynomial& piece = cut.parts[k];
       parts.push_back({part.patch, hull_of(Net(piece)).grown(place.rounding),
-                       PolynomialPatch<S>::is_leaf(piece, halvings), cut.numbers[k], piece, halvings});
+                       PolynomialPatch<S>::is_leaf(piece, halvings), cut.numbers[k], piece, halvings,
+                       part.is_smooth_across});
     }
     return;
   }
@@ -331,7 +342,7 @@ void Parts<S>::take_apart(const Part& part, std::vector<Part>& parts) {
   if constexpr (S::face_kind == FaceKind::quad) {
     if (const auto& strips = irregular.configuration->crease_strips()) {
       for (const auto& [domain, polynomial] : strips->strips(irregular.points.data()))
-        parts.push_back(whole(keep(std::make_unique<PolynomialPatch<S>>(polynomial, place.part(domain)))));
+        parts.push_back(whole(keep(std::make_unique<PolynomialPatch<S>>(polynomial, place.part(domain), false))));
       return;
     }
   }
@@ -357,7 +368,7 @@ void Parts<S>::add(const Part& part, const BoxSpace& space) {
   const Place& place = part.patch->place();
   if (part.number != 0)
     eight.patch[i % 8] = &keep(std::make_unique<PolynomialPatch<S>>(
-        part.polynomial, place.part(Pieces<Polynomial>::domain(part.number)), part.halvings));
+        part.polynomial, place.part(Pieces<Polynomial>::domain(part.number)), part.is_smooth_across, part.halvings));
   // From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked there
   // must not depend on whether its parts are known already.
   constexpr int tiny_level = 24;

@@ -2,6 +2,8 @@
 
 #include <Eigen/QR>
 
+#include <numbers>
+
 namespace shaolin {
 
 Placement::Placement(const Affine& to_world)
@@ -29,6 +31,17 @@ std::optional<Ray> Placement::to_object(const Ray& ray) const {
   local.footprint.width *= scale;
   local.footprint.unit *= scale;
   return local;
+}
+
+void Placement::to_world(Hit& hit, const TraversalRay& ray) const {
+  if (identity_) return;
+  // Three products and three sums a coordinate, the translation among them: at most four roundings of each.
+  const double norm = metric_.norm();
+  const double rounding =
+      4 * unit_roundoff * (norm * hit.sample.position.norm() + to_world_.translation().norm()) * std::numbers::sqrt3;
+  to_world(hit.sample);
+  hit.certificate.error = norm * hit.certificate.error + rounding;
+  hit.certificate.residual = distance_from_line(hit.sample.position, ray.origin, ray.direction);
 }
 
 void Placement::to_world(LimitSample& sample) const {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "affine.h"
+#include "box.h"
 
 namespace shaolin {
 
@@ -30,6 +31,9 @@ class Placement {
   /// Position and derivatives go with the map. The normal goes with the inverse transpose, so it stays on its side of
   /// the surface: what was outside is outside. Where the map mirrors, it is thus against du x dv.
   void to_world(LimitSample& sample) const;
+
+  /// A hit of the ray in the world: its sample goes with the map, its certificate's error with the map's norm.
+  void to_world(Hit& hit, const TraversalRay& ray) const;
 
  private:
   Affine to_world_;

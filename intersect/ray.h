@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "../schemes/limit_sample.h"
+#include "certificate.h"
 
 namespace shaolin {
 
@@ -32,6 +33,7 @@ struct Hit {
   LimitSample sample;   ///< the limit position (it lies on the ray to rounding), the unit normal, derivatives
   int level = 0;        ///< the refinement level of the patch that was met: its parameter square has side 2^-level
   int instance = 0;     ///< the index of the instance in its scene
+  Certificate certificate;
 };
 
 }  // namespace shaolin

@@ -79,7 +79,7 @@ class RefiningFinish {
 template <Scheme S>
 void RefiningFinish<S>::accept(const PatchHit& hit, const Parameter& origin, double scale) {
   if (hit.distance < near_ - error_ || hit.distance > horizon()) return;
-  const PatchHit own{origin + scale * hit.at, std::max(hit.distance, near_), hit.reach, hit.is_proven};
+  const PatchHit own{origin + scale * hit.at, std::max(hit.distance, near_), hit.reach, hit.is_proven, hit.radius};
   if (all_) return all_->push_back(own);
   best_ = own;
   found_ = has_hit_ = true;

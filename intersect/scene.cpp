@@ -32,6 +32,8 @@ void check(const Ray& ray) {
   if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
 }
 
+std::uint64_t count_uncertified(const std::optional<Hit>& hit) { return hit && !hit->certificate.is_certified(); }
+
 bool is_hit(const std::optional<Hit>& answer) { return answer.has_value(); }
 bool is_hit(const std::vector<Crossing>& answer) { return !answer.empty(); }
 bool is_hit(std::size_t answer) { return answer != 0; }
@@ -85,13 +87,17 @@ class Scene::Implementation {
   }
 
   std::optional<Hit> intersect(const Ray& ray, RayCounters& counters) const {
-    return sole_ ? sole_->intersect(ray, counters) : intersect_instances(ray, counters);
+    std::optional<Hit> hit = sole_ ? sole_->intersect(ray, counters) : intersect_instances(ray, counters);
+    counters.uncertified += count_uncertified(hit);
+    return hit;
   }
   bool occluded(const Ray& ray, RayCounters& counters) const {
     return sole_ ? sole_->occluded(ray, counters) : occluded_by_instances(ray, counters);
   }
   std::vector<Crossing> all_hits(const Ray& ray, RayCounters& counters) const {
-    return sole_ ? sole_->all_hits(ray, counters) : all_hits_of_instances(ray, counters);
+    std::vector<Crossing> all = sole_ ? sole_->all_hits(ray, counters) : all_hits_of_instances(ray, counters);
+    counters.uncertified += count_uncertified(all);
+    return all;
   }
   std::size_t count(const Ray& ray, RayCounters& counters) const {
     const std::vector<Crossing> all = all_hits(ray, counters);
@@ -223,7 +229,7 @@ std::optional<Hit> Scene::Implementation::intersect_instances(const Ray& ray, Ra
         box_far = box_ray->local(traversal.distance(reach.tmax));
         return false;
       });
-  if (best) of_best->placement.to_world(best->sample);
+  if (best) of_best->placement.to_world(*best, traversal);
   return best;
 }
 
@@ -258,7 +264,7 @@ std::vector<Crossing> Scene::Implementation::all_hits_of_instances(const Ray& ra
         if (!local) return false;
         for (Crossing& crossing : leaf.object->all_hits(*local, counters)) {
           crossing.hit.instance = leaf.instance;
-          leaf.placement.to_world(crossing.hit.sample);
+          leaf.placement.to_world(crossing.hit, traversal);
           all.push_back(std::move(crossing));
         }
         return false;

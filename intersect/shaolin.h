@@ -99,6 +99,13 @@ class ShaoLin {
     return known ? *known : make_start_patch(primitive);
   }
   const StartPatch& make_start_patch(int primitive) const;
+  /// Finishes that certify say so of what they find; of others nothing is certified.
+  static bool is_certified(const Found& found) {
+    if constexpr (requires { found.is_certified(); })
+      return found.is_certified();
+    else
+      return false;
+  }
   template <Query query>
   std::optional<FoundAt> search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
 
@@ -166,7 +173,9 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
 template <Scheme S, template <class> class Finish>
 bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
   const PatchBudget::Query guard(start_patches_.budget());
-  return search<Query::any>(ray, TraversalRay(ray), counters).has_value();
+  const std::optional<FoundAt> any = search<Query::any>(ray, TraversalRay(ray), counters);
+  if (any && !is_certified(any->found)) ++counters.uncertified;
+  return any.has_value();
 }
 
 template <Scheme S, template <class> class Finish>
@@ -190,6 +199,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
         for (const Found& one : found) {
           Hit hit = finish_.hit(one, face, sub, surface_);
           hit.t = std::clamp(traversal.t(one.distance), ray.tmin, ray.tmax);
+          hit.certificate.residual = distance_from_line(hit.sample.position, traversal.origin, traversal.direction);
           const double cosine = std::abs(hit.sample.normal.dot(traversal.direction));
           contacts.push_back({hit, one.distance, contact_uncertainty(one.error, one.reach, cosine), one.is_proven});
         }
@@ -206,6 +216,7 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
   if (!best) return {};
   Hit hit = finish_.hit(best->found, best->primitive.face, best->primitive.sub, surface_);
   hit.t = std::clamp(traversal.t(best->found.distance), ray.tmin, ray.tmax);
+  hit.certificate.residual = distance_from_line(hit.sample.position, traversal.origin, traversal.direction);
   return hit;
 }
 

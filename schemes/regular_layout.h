@@ -1,5 +1,6 @@
 #pragma once
 /// Finding the spline control points of a regular patch in its neighbourhood.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <type_traits>
@@ -38,6 +39,13 @@ template <class Bezier>
 struct RegularLayout {
   std::vector<SplinePoint> points;
   Bezier (*bezier)(const std::array<Vec3, Bezier::spline_size>&);  ///< reads the first points.size() of them
+
+  /// True if the spline reaches beyond all sides and has a point of the surface at each place: then the polynomials there
+  /// continue this one as smoothly as the spline. (No phantoms; linear patches reach nowhere.)
+  bool is_smooth_across() const {
+    return points.size() == Bezier::spline_size &&
+           std::all_of(points.begin(), points.end(), [](const SplinePoint& point) { return point.count == 1; });
+  }
 
   Bezier patch(const Vec3* control) const {
     std::array<Vec3, Bezier::spline_size> spline;

@@ -33,7 +33,8 @@ inline bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
     return false;
   return a->t == b->t && a->at.face == b->at.face && a->at.sub == b->at.sub && a->at.u == b->at.u &&
          a->at.v == b->at.v && a->level == b->level && a->sample.position == b->sample.position &&
-         a->sample.normal == b->sample.normal;
+         a->sample.normal == b->sample.normal && a->certificate.status == b->certificate.status &&
+         a->certificate.residual == b->certificate.residual && a->certificate.error == b->certificate.error;
 }
 
 }  // namespace shaolin

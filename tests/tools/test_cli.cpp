@@ -8,7 +8,7 @@
 namespace shaolin::test {
 namespace {
 
-const std::string hit_header = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz";
+const std::string hit_header = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,certified,residual,error";
 const std::string eval_header =
     "face,sub,u,v,px,py,pz,nx,ny,nz,dux,duy,duz,dvx,dvy,dvz,duux,duuy,duuz,duvx,duvy,duvz,dvvx,dvvy,dvvz";
 
@@ -84,7 +84,9 @@ TEST_CASE("usage errors exit with 2 and write nothing", "[tools][cli]") {
       {"render", model, "-o", exr, "--threads", "-1"},
       {"render", model, "-o", exr, "--threads", "two"},
       {"query", model, "-o", csv},
-      {"query", model, "--rays", csv},
+      {"query", model, "--ray", "0,0,5,0,0"},
+      {"query", model, "--ray", "0,0,5,0,0,-1\n0,0,6,0,0,-1"},
+      {"query", model, "--ray", "0,0,5,0,0,-1", "--rays", csv},
       {"eval", model, "-o", csv},
       {"eval", model, "--params", csv},
   };
@@ -216,7 +218,7 @@ TEST_CASE("query answers every ray in order", "[tools][cli]") {
   for (std::size_t i = 1; i < table.size(); ++i) {
     CAPTURE(i);
     const auto& row = table[i];
-    REQUIRE(row.size() == 13);
+    REQUIRE(row.size() == 16);
     CHECK(row[0] == std::to_string(i - 1));
     const bool expected = i != 2 && i != 4;
     CHECK(row[1] == (expected ? "1" : "0"));
@@ -292,7 +294,7 @@ TEST_CASE("query --any fills in ray and hit only", "[tools][cli]") {
   const std::string rays = folder.write("rays.csv", "0.1,0.2,5,0,0,-1\n9,9,5,0,0,-1\n");
   const std::string model = data_file("cube_creases.obj"), output = folder / "hits.csv";
   REQUIRE(folder.run({"query", model, "--rays", rays, "-o", output, "--any", "--threads", "1"}).status == 0);
-  CHECK(read_file(output) == hit_header + "\n0,1,,,,,,,,,,,\n1,0,,,,,,,,,,,\n");
+  CHECK(read_file(output) == hit_header + "\n0,1,,,,,,,,,,,,,,\n1,0,,,,,,,,,,,,,,\n");
 }
 
 TEST_CASE("query --all writes a row for each hit, --count how many there are", "[tools][cli]") {
@@ -421,10 +423,12 @@ TEST_CASE("a normal is empty where the surface has none", "[tools][cli]") {
   }
   REQUIRE(folder.run({"query", model, "--rays", folder.write("rays.csv", rays), "-o", hits}).status == 0);
   for (const auto& row : read_rows(hits)) {
-    REQUIRE(row.size() == 13);
+    REQUIRE(row.size() == 16);
     if (row[0] == "ray") continue;
     CHECK(row[1] == "1");
-    CHECK(all_empty(row, 10));
+    CHECK((row[10] + row[11] + row[12]).empty());
+    CHECK(row[13] == "0");  // a point, or a segment, has no one crossing
+    CHECK(row[15].empty());
   }
 }
 

@@ -107,7 +107,7 @@ void add_all(const std::string& model, ControlMesh mesh) {
   add(name("parts of an irregular patch"), subject->irregular.size(),
       [=](std::size_t i) { return Parts<S>(*PatchNode<S>::make(subject->irregular[i], {}), space).splits(); });
   add(name("parts of a polynomial"), subject->polynomials.size(),
-      [=](std::size_t i) { return Parts<S>(PolynomialPatch<S>(subject->polynomials[i], {}), space).splits(); });
+      [=](std::size_t i) { return Parts<S>(PolynomialPatch<S>(subject->polynomials[i], {}, false), space).splits(); });
   add(name("bound a polynomial"), subject->nets.size(), [=](std::size_t i) { return hull_of(subject->nets[i]); });
   add(name("make a coordinate of a piece"), subject->nets.size(), [=](std::size_t i) {
     std::array<double, 16> piece;

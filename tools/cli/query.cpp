@@ -1,11 +1,14 @@
 #include "tools/cli/query.h"
 
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "schemes/errors.h"
 #include "tools/cli/csv_vector.h"
 #include "tools/cli/distinct_files.h"
 #include "tools/cli/row_batch.h"
@@ -16,12 +19,25 @@ namespace shaolin {
 namespace {
 
 constexpr std::string_view ray_columns = "ox,oy,oz,dx,dy,dz,tmin,tmax";
-constexpr std::string_view hit_columns = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz";
+constexpr std::string_view hit_columns = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,certified,residual,error";
 using Answer = QueryOptions::Answer;
 
-CsvTable read_rays(const std::filesystem::path& file) {
-  CsvTable table = read_csv(file, {6, 8});
-  check_header(table, file.string(), ray_columns);
+CsvTable parse_rays(const std::vector<std::string>& texts) {
+  CsvTable table("--ray");
+  for (const std::string& text : texts) {
+    std::istringstream line(text);
+    const CsvTable one = read_csv(line, "--ray", {6, 8});
+    if (one.row_count() != 1)
+      throw InputError("'" + text + "' is not one ray: ox,oy,oz,dx,dy,dz, and tmin,tmax or not");
+    table.add_row(one.row(0), static_cast<int>(table.row_count()) + 1);
+  }
+  return table;
+}
+
+CsvTable read_rays(const QueryOptions& options) {
+  if (options.file.empty()) return parse_rays(options.rays);
+  CsvTable table = read_csv(options.file, {6, 8});
+  check_header(table, options.file.string(), ray_columns);
   return table;
 }
 
@@ -52,7 +68,7 @@ class HitWriter {
 
   /// A row of which only the first two fields are known. (Of char, as std::vector<bool> shares bytes between threads.)
   void write(std::size_t ray, char hit) {
-    writer_.field(static_cast<long long>(ray)).field(hit).empty(11 + senses_ + instances_).end_row();
+    writer_.field(static_cast<long long>(ray)).field(hit).empty(14 + senses_ + instances_).end_row();
   }
 
   void write(std::size_t ray, const std::optional<Hit>& hit) {
@@ -84,6 +100,12 @@ class HitWriter {
     writer_.field(hit.t).field(hit.at.face).field(hit.at.sub).field(hit.at.u).field(hit.at.v);
     write_vector(writer_, hit.sample.position);
     write_normal(writer_, hit.sample.normal);
+    const Certificate& certificate = hit.certificate;
+    writer_.field(certificate.is_certified() ? 1 : 0).field(certificate.residual);
+    if (certificate.is_certified())
+      writer_.field(certificate.error);
+    else
+      writer_.empty();
   }
   void end_row(const Hit& hit) {
     if (instances_) writer_.field(hit.instance);
@@ -104,7 +126,7 @@ void answer_all(const CsvTable& rays, HitWriter& writer, Ask ask) {
 
 void query_in_arena(const QueryOptions& options) {
   Stage stage = load_stage(options.model);
-  const CsvTable rays = read_rays(options.rays);
+  const CsvTable rays = read_rays(options);
   const Scene scene = build_scene(stage, options.scene);
   HitWriter writer(options.hits, options.answer, stage.is_scene);
   switch (options.answer) {
@@ -122,6 +144,9 @@ void query_in_arena(const QueryOptions& options) {
       break;
   }
   writer.commit();
+  const Statistics statistics = scene.statistics();
+  std::cerr << statistics.rays << " rays, " << statistics.hits << " with a hit, " << statistics.uncertified
+            << " hits not certified\n";
 }
 
 }  // namespace
@@ -136,18 +161,33 @@ void add_query(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("query", "Intersect rays from a CSV file with the limit surface");
   add_stage_options(*sub, options->model);
   add_method_options(*sub, options->scene);
-  sub->add_option("--rays", options->rays,
-                  "CSV file with the columns ox,oy,oz,dx,dy,dz[,tmin,tmax]; a header is optional. Directions need not "
-                  "be unit; t is in units of their length")
-      ->required()
+  CLI::Option_group* const rays = sub->add_option_group("Rays");
+  rays->add_option("--rays", options->file,
+                   "CSV file with the columns ox,oy,oz,dx,dy,dz[,tmin,tmax]; a header is optional. Directions need not "
+                   "be unit; t is in units of their length")
       ->type_name("FILE");
+  rays->add_option_function<std::vector<std::string>>(
+          "--ray",
+          [options](const std::vector<std::string>& texts) {
+            try {
+              parse_rays(texts);
+            } catch (const InputError& error) {
+              throw CLI::ValidationError("--ray", error.what());
+            }
+            options->rays = texts;
+          },
+          "A ray, instead of a file; may be given again")
+      ->type_name("OX,OY,OZ,DX,DY,DZ[,TMIN,TMAX]")
+      ->allow_extra_args(false);
+  rays->require_option(1);
   sub->add_option(
          "-o,--output", options->hits,
-         "CSV file with one row per ray, in order: ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz; on a miss, hit is "
-         "0 and the fields after it are empty; the normal is empty where the surface has none. Of scenes with one more "
-         "column, instance, which counts from 0 in the "
-         "file's order with groups dissolved")
-      ->required()
+         "CSV file with one row per ray, in order: ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,certified,residual,error; "
+         "on a miss, hit is 0 and the fields after it are empty; the normal is empty where the surface has none. Where "
+         "certified is 1 there is one crossing, proven to be no farther than error from the position; the position is "
+         "residual away from the ray. Of scenes with one more column, instance, which counts from 0 in the file's "
+         "order "
+         "with groups dissolved. By default to the standard output")
       ->type_name("FILE");
   const auto add_answer = [&](const char* name, Answer answer, const char* help) {
     return sub->add_flag_callback(
@@ -172,7 +212,7 @@ void add_query(CLI::App& app, Command& command) {
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     std::vector<NamedFile> inputs = inputs_of(options->model);
-    inputs.push_back({"--rays", options->rays});
+    inputs.push_back({"--rays", options->file});
     expect_distinct_files({{"--output", options->hits}}, inputs);
     command = [options] { return query(*options); };
   });

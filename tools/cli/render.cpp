@@ -50,6 +50,9 @@ void print_summary(const RenderOptions& options, const RenderStats& stats) {
   std::printf("%dx%d pixels, %zu on the surface; %.3f s in all: load %.3f, build %.3f, render %.3f, write %.3f\n",
               stats.size.width, stats.size.height, stats.pixels_hit, stats.total_seconds(), stats.load_seconds,
               stats.build_seconds, stats.render_seconds, stats.write_seconds);
+  const Statistics& counts = stats.statistics;
+  std::printf("%llu rays, %llu with a hit, %llu hits not certified\n", static_cast<unsigned long long>(counts.rays),
+              static_cast<unsigned long long>(counts.hits), static_cast<unsigned long long>(counts.uncertified));
 }
 
 void render_in_arena(const RenderOptions& options) {

@@ -22,6 +22,7 @@ Json to_json(const Statistics& statistics) {
           {"hull_tests", statistics.hull_tests},
           {"cells", statistics.cells},
           {"newton_steps", statistics.newton_steps},
+          {"uncertified", statistics.uncertified},
           {"chord_tests", statistics.chord_tests},
           {"w_cases", statistics.w_cases},
           {"gap_polygons", statistics.gap_polygons},

@@ -49,6 +49,17 @@ std::unique_ptr<const Oracle> make_oracle(const LoadedModel& model) {
   return std::make_unique<MaskOracle>(model.mesh, model.masks ? model.masks : builtin_masks(model.scheme));
 }
 
+/// Of a built-in scheme, in exact arithmetic: hits, and decisions about chord triangles.
+void check_exactly(Validation& result, const ControlMesh& mesh, const Scene& scene, const Oracle& oracle,
+                   const ValidateOptions& options) {
+  const auto rays = sample_rays(oracle, options.exact, options.seed);
+  result.exact_hits = check_exact_hits(Intersector::of(scene), mesh, QuadOracle(mesh, result.scheme), rays);
+  const TriangleSoup soup = uniform_triangles(mesh, result.scheme, Validation::exact_level);
+  if (soup.triangles.empty()) return;
+  const Scene uniform(mesh, result.scheme, {.method = Method::uniform, .level = Validation::exact_level});
+  result.exact_triangles = check_exact_triangles(Intersector::of(uniform), soup, rays);
+}
+
 Validation check_model(const ValidateOptions& options) {
   Stopwatch stopwatch;
   LoadedModel model = load_model(options.model);
@@ -59,6 +70,10 @@ Validation check_model(const ValidateOptions& options) {
                     .oracle = by_opensubdiv ? "OpenSubdiv" : "plain refinement by the masks (good to 1e-13 diagonals)",
 
                     .seed = options.seed};
+  if (options.exact > 0 && model.masks)
+    throw InputError(
+        "--exact knows the masks of built-in schemes to all digits, a plug-in's not; expected no --plugin");
+  const ControlMesh mesh = model.mesh;
   const Scene scene = build_scene(std::move(model));
   result.diagonal = oracle->diagonal();
 
@@ -74,6 +89,7 @@ Validation check_model(const ValidateOptions& options) {
     const auto rays = sample_rays(*oracle, count, options.seed);
     result.rays = check_rays(Intersector::of(scene), *oracle, dense ? &*dense : nullptr, rays);
   }
+  if (options.exact > 0) check_exactly(result, mesh, scene, *oracle, options);
   result.seconds = stopwatch.lap();
   return result;
 }
@@ -108,6 +124,12 @@ void add_validate(CLI::App& app, Command& command) {
   sub->add_option("--evaluations", options->evaluations,
                   "Evaluations; a quarter of them crowds towards corners of patches, down to 1e-8 (default: 10000; 300 "
                   "without OpenSubdiv)")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
+  sub->add_option(
+         "--exact", options->exact,
+         "So many rays besides, whose hits are derived again in numbers of 113 bits, held against their "
+         "certificates, and whose decisions about chord triangles (--uniform 2) are made again by exact signs: "
+         "0.1 s each (default: none)")
       ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
   sub->add_option("--seed", options->seed, "Seed of the random numbers")
       ->check(CLI::NonNegativeNumber)

@@ -15,6 +15,7 @@ struct ValidateOptions {
   ModelOptions model;
   std::optional<std::size_t> rays;         ///< --rays; a tenth of that in addition is aimed at edges and vertices
   std::optional<std::size_t> evaluations;  ///< --evaluations
+  std::size_t exact = 0;                   ///< --exact: so many rays
   std::uint64_t seed = 1;                  ///< --seed
   std::filesystem::path report;            ///< --report; empty: none
   int threads = 0;                         ///< --threads; 0: all

@@ -54,6 +54,7 @@ Json to_json(const RayFigures& figures) {
           {"undecided", figures.undecided},
           {"seen", figures.seen},
           {"undetermined_normals", figures.undetermined_normals},
+          {"uncertified", figures.uncertified},
           {"worst_on_ray", number(figures.worst_on_ray)},
           {"worst_on_surface", number(figures.worst_on_surface)},
           {"worst_normal", number(figures.worst_normal)}};
@@ -64,6 +65,21 @@ Json to_json(const RayReport& report) {
   for (std::size_t i = 0; i < ray_kinds.size(); ++i) json[name_of(ray_kinds[i])] = to_json(report.by_kind[i]);
   json["all"] = to_json(report.total());
   return json;
+}
+
+Json to_json(const ExactHitFigures& figures) {
+  return {{"rays", figures.rays},
+          {"hits", figures.hits},
+          {"certified", figures.certified},
+          {"worst_position", number(figures.worst_position)},
+          {"worst_ulps", number(figures.worst_ulps)},
+          {"worst_bound_share", number(figures.worst_bound_share)},
+          {"worst_residual", number(figures.worst_residual)}};
+}
+
+Json to_json(const ExactTriangleFigures& figures) {
+  return {{"level", Validation::exact_level}, {"rays", figures.rays},       {"hits", figures.hits},
+          {"decisions", figures.decisions},   {"excused", figures.excused}, {"worst_t", number(figures.worst_t)}};
 }
 
 std::string replay_row(const Disagreement& d) { return d.ray ? exact(*d.ray) : d.at ? exact(*d.at) : std::string(); }
@@ -91,21 +107,28 @@ Json bars() {
 
 Json to_json(const Validation& validation) {
   Json disagreements = Json::array();
-  for (const auto* list : {&validation.evaluations.disagreements, &validation.rays.disagreements}) {
-    for (const Disagreement& d : *list) disagreements.push_back(to_json(d));
-  }
-  return {{"model", validation.model},
-          {"scheme", validation.scheme},
-          {"oracle", validation.oracle},
-          {"seed", validation.seed},
-          {"diagonal", validation.diagonal},
-          {"dense_level", validation.dense_level},
-          {"seconds", validation.seconds},
-          {"passed", validation.passed()},
-          {"evaluations", to_json(validation.evaluations)},
-          {"rays", to_json(validation.rays)},
-          {"bars", bars()},
-          {"disagreements", std::move(disagreements)}};
+  const auto append = [&](const std::vector<Disagreement>& list) {
+    for (const Disagreement& d : list) disagreements.push_back(to_json(d));
+  };
+  append(validation.evaluations.disagreements);
+  append(validation.rays.disagreements);
+  if (validation.exact_hits) append(validation.exact_hits->disagreements);
+  if (validation.exact_triangles) append(validation.exact_triangles->disagreements);
+  Json json{{"model", validation.model},
+            {"scheme", validation.scheme},
+            {"oracle", validation.oracle},
+            {"seed", validation.seed},
+            {"diagonal", validation.diagonal},
+            {"dense_level", validation.dense_level},
+            {"seconds", validation.seconds},
+            {"passed", validation.passed()},
+            {"evaluations", to_json(validation.evaluations)},
+            {"rays", to_json(validation.rays)},
+            {"bars", bars()},
+            {"disagreements", std::move(disagreements)}};
+  if (validation.exact_hits) json["exact_hits"] = to_json(*validation.exact_hits);
+  if (validation.exact_triangles) json["exact_triangles"] = to_json(*validation.exact_triangles);
+  return json;
 }
 
 void print_figure(const char* name, double value, double allowed) {
@@ -170,11 +193,33 @@ void print_rays(const Validation& validation) {
   print_figure("normal at a hit (rad)", all.worst_normal, bar::normal);
   print_count("normals that doubles do not determine", all.undetermined_normals, "not judged");
   print_count("misses within 1e-10 diagonals of an outline", all.undecided, "not judged");
+  print_count("hits not certified", all.uncertified);
 }
 
-void print_disagreements(const char* rows, const std::vector<Disagreement>& disagreements) {
+void print_exact(const Validation& validation) {
+  if (validation.exact_hits) {
+    const ExactHitFigures& hits = *validation.exact_hits;
+    std::printf("\nHits in exact arithmetic: %zu of %zu rays\n", hits.hits, hits.rays);
+    print_count("certified", hits.certified);
+    print_figure("distance from the crossing / certificate's error", hits.worst_bound_share, 1);
+    std::printf("  %-44s %9.2e   of the diagonal; %.1f ulps of the coordinates\n", "distance from the crossing",
+                hits.worst_position, hits.worst_ulps);
+    std::printf("  %-44s %9.2e   of the diagonal\n", "residual of hits not certified", hits.worst_residual);
+    print_fault_count("disagreements", hits.disagreements.size());
+  }
+  if (validation.exact_triangles) {
+    const ExactTriangleFigures& triangles = *validation.exact_triangles;
+    std::printf("\nTriangles in exact arithmetic: %zu rays, %zu decisions\n", triangles.rays, triangles.decisions);
+    print_count("hits", triangles.hits);
+    print_count("within rounding of an outline or boundary", triangles.excused, "not judged");
+    std::printf("  %-44s %9.2e   of |t| |d| + diagonal\n", "distance along the ray", triangles.worst_t);
+    print_fault_count("disagreements", triangles.disagreements.size());
+  }
+}
+
+void print_disagreements(const std::string& rows, const std::vector<Disagreement>& disagreements) {
   if (disagreements.empty()) return;
-  std::printf("\n%zu disagreements; each row replays with 'shaolin %s'\n", disagreements.size(), rows);
+  std::printf("\n%zu disagreements; each row replays with 'shaolin %s'\n", disagreements.size(), rows.c_str());
   for (std::size_t i = 0; i < std::min(most_printed, disagreements.size()); ++i) {
     const Disagreement& d = disagreements[i];
     std::printf("  %s: %.3e, allowed %.0e\n    %s\n    %s\n", d.what.c_str(), d.error, d.allowed, replay_row(d).c_str(),
@@ -192,8 +237,14 @@ void print_validation(const Validation& validation) {
               validation.scheme.c_str(), validation.oracle.c_str(), static_cast<unsigned long long>(validation.seed));
   print_evaluations(validation.evaluations);
   print_rays(validation);
+  print_exact(validation);
+  const std::string query = "query " + validation.model + " --scheme " + validation.scheme, row = " --ray=ROW";
   print_disagreements("eval --params", validation.evaluations.disagreements);
-  print_disagreements("query --rays", validation.rays.disagreements);
+  print_disagreements(query + row, validation.rays.disagreements);
+  if (validation.exact_hits) print_disagreements(query + row, validation.exact_hits->disagreements);
+  if (validation.exact_triangles)
+    print_disagreements(query + " --uniform " + std::to_string(Validation::exact_level) + row,
+                        validation.exact_triangles->disagreements);
   std::printf("\n%s (%.1f s)\n", validation.passed() ? "PASS" : "FAIL", validation.seconds);
 }
 

@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "tools/validate/check_evaluations.h"
 #include "tools/validate/check_rays.h"
+#include "tools/validate/exact_hits.h"
+#include "tools/validate/exact_triangles.h"
 
 namespace shaolin {
 
@@ -19,8 +22,16 @@ struct Validation {
   double seconds = 0;
   EvaluationReport evaluations{};
   RayReport rays{};
+  std::optional<ExactHitFigures> exact_hits{};            ///< if asked for
+  std::optional<ExactTriangleFigures> exact_triangles{};  ///< the same, at exact_level; for loop and catmark
 
-  bool passed() const { return evaluations.passed() && rays.passed(); }
+  /// Refinements of the triangles that are decided exactly: chords of Method::uniform.
+  static constexpr int exact_level = 2;
+
+  bool passed() const {
+    return evaluations.passed() && rays.passed() && (!exact_hits || exact_hits->disagreements.empty()) &&
+           (!exact_triangles || exact_triangles->disagreements.empty());
+  }
 };
 
 /// The table, the first disagreements in full, the verdict: to stdout.
@@ -32,6 +43,7 @@ void print_validation(const Validation& validation);
 ///     evaluations    { count, faces, faces_without_limit, passed, position, normal, undetermined_normal, derivative }:
 ///                    the last four are { count, median, p99, max, worst: { face, sub, u, v } }
 ///     rays           { camera, incoherent, grazing, aimed, all }: every field of RayFigures
+///     exact_hits, exact_triangles   every field of ExactHitFigures and ExactTriangleFigures, if asked for
 ///     bars           the figures that these are held to
 ///     disagreements  a list of { what, error, allowed, at or ray, replay, detail }: `replay` is a row for
 ///                    `shaolin eval` or `shaolin query`

@@ -109,6 +109,7 @@ void Check::hit(const Context& context, const Hit& hit) {
              off_surface ? on_surface : on_ray, off_surface ? bar::on_surface : bar::on_ray);
     return;
   }
+  context.figures.uncertified += !hit.certificate.is_certified();
   normal(context, hit, *expected);
   const double window = context.step(along, oracle_.diagonal());
   context.figures.seen += closest(ray, hit.t - window, hit.t + window).has_value();
@@ -169,6 +170,7 @@ void RayFigures::add(const RayFigures& other) {
   undecided += other.undecided;
   seen += other.seen;
   undetermined_normals += other.undetermined_normals;
+  uncertified += other.uncertified;
   worst_on_ray = std::max(worst_on_ray, other.worst_on_ray);
   worst_on_surface = std::max(worst_on_surface, other.worst_on_surface);
   worst_normal = std::max(worst_normal, other.worst_normal);

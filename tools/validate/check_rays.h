@@ -30,6 +30,7 @@ struct RayFigures {
   std::size_t undecided = 0;       ///< a lost hit that is no matter of rounding could not be told from one that is
   std::size_t seen = 0;            ///< hits that the dense check sees, too: how far its silence can be trusted
   std::size_t undetermined_normals = 0;
+  std::size_t uncertified = 0;  ///< hits, see certificate.h
   double worst_on_ray = 0;      ///< of |t| |d| + diagonal
   double worst_on_surface = 0;  ///< in diagonals
   double worst_normal = 0;      ///< rad, where determined

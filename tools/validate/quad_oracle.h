@@ -17,6 +17,7 @@ class QuadOracle {
   QuadVec3 position(const SurfaceParameter& at) const;
 
   double diagonal() const { return root_.diagonal; }
+  bool triangular() const { return root_.rules.triangular(); }
 
  private:
   RootMesh make_root(const ControlMesh& mesh);
