@@ -14,12 +14,18 @@ struct Subject {
       : mesh(read_obj(data_file(file))),
         scheme(default_scheme(mesh)),
         scene(mesh, scheme),
-        uniform(mesh, scheme, {.method = Method::uniform, .level = 2}),
+        uniform(mesh, scheme, triangles()),
         exact(mesh, scheme),
         rays(sample_rays(OpenSubdivOracle(mesh, scheme), 40, 7)) {}
 
+  static SceneOptions triangles() {
+    SceneOptions options;
+    options.method = Method::uniform;
+    options.level = 2;
+    return options;
+  }
   ExactHitFigures hits(const Intersector& ours) const { return check_exact_hits(ours, mesh, exact, rays); }
-  ExactTriangleFigures triangles(const Intersector& ours) const {
+  ExactTriangleFigures decisions(const Intersector& ours) const {
     return check_exact_triangles(ours, uniform_triangles(mesh, scheme, 2), rays);
   }
 
@@ -80,7 +86,7 @@ TEST_CASE("Exact arithmetic confirms decisions about triangles, and catches wron
   for (const std::string file : {"torus.obj", "cube_creases.obj", "tetrahedron.obj", "sail.obj"}) {
     CAPTURE(file);
     const Subject subject(file);
-    const ExactTriangleFigures figures = subject.triangles(Intersector::of(subject.uniform));
+    const ExactTriangleFigures figures = subject.decisions(Intersector::of(subject.uniform));
     for (const Disagreement& d : figures.disagreements)
       UNSCOPED_INFO(d.what << ' ' << exact(*d.ray) << ' ' << d.detail);
     CHECK(figures.disagreements.empty());
@@ -88,13 +94,13 @@ TEST_CASE("Exact arithmetic confirms decisions about triangles, and catches wron
     CHECK(figures.decisions > figures.hits);
     CHECK(figures.worst_t < 1e-12);
     const auto lost =
-        subject.triangles(spoiled(subject.uniform, [](std::optional<Hit>& hit) { hit.reset(); })).disagreements;
+        subject.decisions(spoiled(subject.uniform, [](std::optional<Hit>& hit) { hit.reset(); })).disagreements;
     CHECK(lost.size() + figures.excused >= figures.hits);
-    const auto farther = subject.triangles(spoiled(subject.uniform, [](std::optional<Hit>& hit) {
+    const auto farther = subject.decisions(spoiled(subject.uniform, [](std::optional<Hit>& hit) {
       if (hit) hit->t *= 1 + 1e-9;
     }));
     CHECK(farther.disagreements.size() + farther.excused >= figures.hits);
-    const auto ghosts = subject.triangles(spoiled(subject.uniform, [](std::optional<Hit>& hit) {
+    const auto ghosts = subject.decisions(spoiled(subject.uniform, [](std::optional<Hit>& hit) {
       if (!hit) hit.emplace();
     }));
     CHECK(ghosts.disagreements.size() > 5);

@@ -56,7 +56,10 @@ void check_exactly(Validation& result, const ControlMesh& mesh, const Scene& sce
   result.exact_hits = check_exact_hits(Intersector::of(scene), mesh, QuadOracle(mesh, result.scheme), rays);
   const TriangleSoup soup = uniform_triangles(mesh, result.scheme, Validation::exact_level);
   if (soup.triangles.empty()) return;
-  const Scene uniform(mesh, result.scheme, {.method = Method::uniform, .level = Validation::exact_level});
+  SceneOptions triangles;
+  triangles.method = Method::uniform;
+  triangles.level = Validation::exact_level;
+  const Scene uniform(mesh, result.scheme, triangles);
   result.exact_triangles = check_exact_triangles(Intersector::of(uniform), soup, rays);
 }
 
