@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -126,11 +127,12 @@ CsvTable read_csv(std::istream& stream, const std::string& name, std::initialize
 
 CsvWriter::CsvWriter(std::filesystem::path file, std::string_view header)
     : name_(file.string()),
-      output_(std::move(file)),
-      stream_(output_.path(), std::ios::binary | std::ios::trunc),
       buffer_(header),
       columns_(1 + static_cast<int>(std::count(header.begin(), header.end(), ','))) {
   buffer_ += '\n';
+  if (file == standard_output) return;
+  output_.emplace(std::move(file));
+  file_.open(output_->path(), std::ios::binary | std::ios::trunc);
 }
 
 void CsvWriter::begin_field() {
@@ -171,16 +173,21 @@ void CsvWriter::end_row() {
   if (buffer_.size() >= block) flush();
 }
 
+std::ostream& CsvWriter::stream() { return output_ ? static_cast<std::ostream&>(file_) : std::cout; }
+
 void CsvWriter::flush() {
-  stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  stream().write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   buffer_.clear();
 }
 
 void CsvWriter::commit() {
   flush();
-  stream_.close();
-  if (!stream_) throw InputError("cannot be written completely (is the disk full?)", name_);
-  output_.commit();
+  if (output_)
+    file_.close();
+  else
+    std::cout.flush();
+  if (!stream()) throw InputError("cannot be written completely (is the disk full?)", name_);
+  if (output_) output_->commit();
 }
 
 }  // namespace shaolin

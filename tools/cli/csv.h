@@ -5,6 +5,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,10 +58,14 @@ CsvTable read_csv(const std::filesystem::path& file, std::initializer_list<std::
 /// The same from a stream; `name` stands for the file in messages.
 CsvTable read_csv(std::istream& stream, const std::string& name, std::initializer_list<std::size_t> column_counts);
 
+/// The name that stands for the standard output.
+inline constexpr const char* standard_output = "-";
+
 /// Writes a table field by field. The file appears on commit(); without it, nothing is left behind.
 class CsvWriter {
  public:
-  /// `header` holds the names of the columns, "a,b,c". Throws InputError as OutputFile does.
+  /// `file` may be `standard_output`. `header` holds the names of the columns, "a,b,c". Throws InputError as OutputFile
+  /// does.
   CsvWriter(std::filesystem::path file, std::string_view header);
 
   CsvWriter& field(double value);     ///< 17 significant digits, as printf's %.17g in the C locale
@@ -77,11 +82,12 @@ class CsvWriter {
 
  private:
   void begin_field();
+  std::ostream& stream();
   void flush();
 
   std::string name_;
-  OutputFile output_;
-  std::ofstream stream_;
+  std::optional<OutputFile> output_;  ///< empty: the standard output
+  std::ofstream file_;
   std::string buffer_;
   int columns_ = 0;
   int fields_ = 0;  ///< in the current row so far

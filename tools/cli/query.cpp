@@ -26,7 +26,7 @@ CsvTable parse_rays(const std::vector<std::string>& texts) {
   CsvTable table("--ray");
   for (const std::string& text : texts) {
     std::istringstream line(text);
-    const CsvTable one = read_csv(line, "--ray", {6, 8});
+    const CsvTable one = read_csv(line, "'" + text + "'", {6, 8});
     if (one.row_count() != 1)
       throw InputError("'" + text + "' is not one ray: ox,oy,oz,dx,dy,dz, and tmin,tmax or not");
     table.add_row(one.row(0), static_cast<int>(table.row_count()) + 1);
@@ -187,7 +187,7 @@ void add_query(CLI::App& app, Command& command) {
          "certified is 1 there is one crossing, proven to be no farther than error from the position; the position is "
          "residual away from the ray. Of scenes with one more column, instance, which counts from 0 in the file's "
          "order "
-         "with groups dissolved. By default to the standard output")
+         "with groups dissolved. By default, and for '-', the standard output")
       ->type_name("FILE");
   const auto add_answer = [&](const char* name, Answer answer, const char* help) {
     return sub->add_flag_callback(

@@ -6,16 +6,17 @@
 #include <vector>
 
 #include "tools/cli/command.h"
+#include "tools/cli/csv.h"
 #include "tools/cli/model.h"
 
 namespace shaolin {
 
 struct QueryOptions {
   ModelOptions model;
-  SceneOptions scene;                          ///< --uniform
-  std::filesystem::path file;                  ///< --rays
-  std::vector<std::string> rays;               ///< --ray, each as a row of the file
-  std::filesystem::path hits = "/dev/stdout";  ///< -o
+  SceneOptions scene;                            ///< --uniform
+  std::filesystem::path file;                    ///< --rays
+  std::vector<std::string> rays;                 ///< --ray, each as a row of the file
+  std::filesystem::path hits = standard_output;  ///< -o
   enum class Answer {
     closest,
     any,   ///< --any: only whether a ray hits
