@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "instruction_set.h"
+#include "object_avx2.h"
 #include "scheme_object.h"
 
 namespace shaolin {
@@ -35,8 +37,13 @@ const SceneOptions& checked(const SceneOptions& options) {
 }  // namespace
 
 std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::string& scheme, const SceneOptions& options) {
-  return with_scheme(scheme,
-                     [&](const auto& type) { return make_scheme_object(std::move(mesh), type, checked(options)); });
+  return with_scheme(scheme, [&](const auto& type) {
+#ifdef SHAOLIN_HAS_AVX2
+    if constexpr (requires { avx2::make_object(std::move(mesh), type, options); })
+      if (instruction_set() == InstructionSet::avx2) return avx2::make_object(std::move(mesh), type, checked(options));
+#endif
+    return make_scheme_object(std::move(mesh), type, checked(options));
+  });
 }
 
 std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::shared_ptr<const SchemeMasks>& masks,
