@@ -54,8 +54,15 @@ void check_exactly(Validation& result, const ControlMesh& mesh, const Scene& sce
                    const ValidateOptions& options) {
   const auto rays = sample_rays(oracle, options.exact, options.seed);
   result.exact_hits = check_exact_hits(Intersector::of(scene), mesh, QuadOracle(mesh, result.scheme), rays);
-  const TriangleSoup soup = uniform_triangles(mesh, result.scheme, Validation::exact_level);
-  if (soup.triangles.empty()) return;
+  TriangleSoup soup;
+  try {
+    soup = uniform_triangles(mesh, result.scheme, Validation::exact_level);
+    if (soup.triangles.empty()) result.no_triangles = "of loop and catmark only";
+  } catch (const InputError& error) {
+    // Refined as a whole, a mesh must fit half-edges; face by face, as rays meet it, it need not.
+    result.no_triangles = error.what();
+  }
+  if (!result.no_triangles.empty()) return;
   SceneOptions triangles;
   triangles.method = Method::uniform;
   triangles.level = Validation::exact_level;

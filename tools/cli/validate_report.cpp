@@ -128,6 +128,7 @@ Json to_json(const Validation& validation) {
             {"disagreements", std::move(disagreements)}};
   if (validation.exact_hits) json["exact_hits"] = to_json(*validation.exact_hits);
   if (validation.exact_triangles) json["exact_triangles"] = to_json(*validation.exact_triangles);
+  if (!validation.no_triangles.empty()) json["no_triangles"] = validation.no_triangles;
   return json;
 }
 
@@ -207,6 +208,8 @@ void print_exact(const Validation& validation) {
     std::printf("  %-44s %9.2e   of the diagonal\n", "residual of hits not certified", hits.worst_residual);
     print_fault_count("disagreements", hits.disagreements.size());
   }
+  if (!validation.no_triangles.empty())
+    std::printf("\nTriangles in exact arithmetic: none (%s)\n", validation.no_triangles.c_str());
   if (validation.exact_triangles) {
     const ExactTriangleFigures& triangles = *validation.exact_triangles;
     std::printf("\nTriangles in exact arithmetic: %zu rays, %zu decisions\n", triangles.rays, triangles.decisions);

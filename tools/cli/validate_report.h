@@ -23,7 +23,8 @@ struct Validation {
   EvaluationReport evaluations{};
   RayReport rays{};
   std::optional<ExactHitFigures> exact_hits{};            ///< if asked for
-  std::optional<ExactTriangleFigures> exact_triangles{};  ///< the same, at exact_level; for loop and catmark
+  std::optional<ExactTriangleFigures> exact_triangles{};  ///< the same, at exact_level
+  std::string no_triangles{};                             ///< why there are none, if so
 
   /// Refinements of the triangles that are decided exactly: chords of Method::uniform.
   static constexpr int exact_level = 2;
@@ -43,9 +44,9 @@ void print_validation(const Validation& validation);
 ///     evaluations    { count, faces, faces_without_limit, passed, position, normal, undetermined_normal, derivative }:
 ///                    the last four are { count, median, p99, max, worst: { face, sub, u, v } }
 ///     rays           { camera, incoherent, grazing, aimed, all }: every field of RayFigures
-///     exact_hits, exact_triangles   every field of ExactHitFigures and ExactTriangleFigures, if asked for
-///     bars           the figures that these are held to
-///     disagreements  a list of { what, error, allowed, at or ray, replay, detail }: `replay` is a row for
+///     exact_hits, exact_triangles   every field of ExactHitFigures and ExactTriangleFigures, if asked for;
+///     no_triangles bars           the figures that these are held to disagreements  a list of { what, error, allowed,
+///     at or ray, replay, detail }: `replay` is a row for
 ///                    `shaolin eval` or `shaolin query`
 ///
 /// What is not finite is written as the text "infinite". Throws std::runtime_error if the file cannot be written.
