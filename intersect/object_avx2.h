@@ -1,5 +1,8 @@
 #pragma once
 /// make_scheme_object(), compiled for AVX2. Private to intersect/object*.cpp.
+///
+/// All that object_*_avx2.cpp define, but for these functions, is made local to them (CMakeLists.txt): an inline function
+/// that other files compile, too, must not be taken from there on processors without AVX2.
 #include <memory>
 
 #include "../schemes/builtin.h"

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "intersect/instruction_set.h"
+
 namespace shaolin {
 namespace {
 
@@ -39,6 +41,7 @@ Json to_json(const RenderStats& stats) {
             {"scheme", stats.scheme},
             {"camera", stats.camera},
             {"threads", stats.threads},
+            {"instruction_set", name_of(instruction_set())},
             {"image", {{"width", stats.size.width}, {"height", stats.size.height}, {"pixels_hit", stats.pixels_hit}}},
             {"seconds",
              {{"load", stats.load_seconds},
