@@ -71,7 +71,17 @@ void SweepSearch::improve(const SurfaceCell& cell, const FramedSample& from) {
     }
     if (!is_earlier) break;
   }
+  polish(cell, best);
   take(cell, best);
+}
+
+/// At its least the time changes with the square of a step, so that it is known to rounding when the place is known to
+/// half the digits. One more step wins the others, as long as the sphere touches there at the same time.
+void SweepSearch::polish(const SurfaceCell& cell, Moment& moment) const {
+  if (!moment.place.derivatives) return;
+  const FramedSample there = *frame_.sample(cell, step(cell, moment));
+  const Vec3 centre = sweep_.start + moment.t * sweep_.displacement;
+  if (std::abs((there.position - centre).norm() - sweep_.radius) <= frame_.error()) moment.place = there;
 }
 
 /// The time is a function of the parameters by psi = (|w|^2 - r^2) / 2 = 0 with w = S - start - t d: with indices for

@@ -38,6 +38,7 @@ class SweepSearch {
   /// When the sphere first touches a point; empty if that is after what is known, or never.
   std::optional<double> time_of(const Vec3& point) const;
   void improve(const SurfaceCell& cell, const FramedSample& from);
+  void polish(const SurfaceCell& cell, Moment& moment) const;
   Parameter step(const SurfaceCell& cell, const Moment& from) const;
   void take(const SurfaceCell& cell, const Moment& moment);
 

@@ -148,4 +148,203 @@ TEST_CASE("Shapes that just touch, or just fail to, are told apart with few cell
   CHECK(most < 20000);
 }
 
+TEST_CASE("Boxes whose sides and edges touch a surface are told apart", "[intersect][overlaps]") {
+  // A face of a bilinear cube lies in the box's side; Catmull-Clark's bulges towards it and is highest in its middle.
+  for (const std::string scheme : {"bilinear", "catmark"}) {
+    const Scene scene(cube(), scheme);
+    const double top = scene.closest_point({0, 0, 9})->sample.position.z();
+    Eigen::Matrix3d turned = Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+    for (const double gap : {1e-3, 1e-9, 1e-12, 0.0, -1e-12, -1e-9, -1e-3}) {
+      const double edge = std::sqrt(0.5);  // half the box's extent along z where it stands on an edge
+      const std::vector<Shape> shapes{OrientedBox{{0.1, -0.2, top + gap + 0.5}, {0.3, 0.4, 0.5}},
+                                      OrientedBox{{0, 0, top + gap + 5}, {5, 5, 5}},
+                                      OrientedBox{{0, 0.01, top + gap}, {0.5, 0.5, 0}},
+                                      OrientedBox{{0, 0, top + gap + edge}, {2, 0.5, 0.5}, turned},
+                                      Triangle{{-1, -1, top + gap}, {1, -1, top + gap}, {0, 2, top + gap}},
+                                      Triangle{{-1, 0, top + gap}, {1, 0, top + gap}, {0, 0, top + gap + 1}},
+                                      Triangle{{-1, 0, top + gap}, {1, 0, top + gap}, {1, 0, top + gap}},
+                                      Triangle{{0, 0, top + gap}, {0, 0, top + gap}, {0, 0, top + gap}},
+                                      Capsule{{-1, 0, top + gap + 0.25}, {1, 0, top + gap + 0.25}, 0.25},
+                                      Capsule{{0, 0, top + gap + 0.25}, {0, 0, top + gap + 0.25}, 0.25}};
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        // What has no inside is through the surface when it is below.
+        const bool is_thin = i == 2 || i == 4 || i == 6 || i == 7;
+        if (is_thin && gap < 0 && (scheme == "bilinear" || i == 7)) continue;
+        const std::uint64_t before = scene.statistics().cells;
+        const auto contact = scene.overlaps(shapes[i]);
+        CAPTURE(scheme, gap, i);
+        CHECK(contact.has_value() == (gap <= 0));
+        CHECK(scene.statistics().cells - before < 10000);
+      }
+    }
+  }
+}
+
+TEST_CASE("Thin shapes cross surfaces without holding a sample", "[intersect][overlaps]") {
+  Random random(23);
+  for (const Model& model : shape_models()) {
+    const Scene scene(model.mesh, model.scheme);
+    const LimitSurface& surface = scene.surface();
+    const DenseSampling samples(surface, 5);
+    const double diagonal = model.mesh.diagonal();
+    int missed = 0, count = 0;
+    std::uint64_t most = 0;
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 on =
+          samples.samples()[static_cast<std::size_t>(random.index(static_cast<int>(samples.samples().size())))]
+              .position;
+      const Vec3 way = diagonal * random.uniform(0.01, 0.5) * random.direction();
+      const Vec3 b = on + random.uniform(0.1, 1) * way, across = way.cross(random.direction());
+      for (const Shape& shape : {Shape(Triangle{on - way, b, on}), Shape(Triangle{on - way, b + across, b - across}),
+                                 Shape(Capsule{on - way, b, 1e-12 * diagonal}),
+                                 Shape(OrientedBox{on, {0, 0, 0.1 * diagonal}, random_axes(random)})}) {
+        const std::uint64_t before = scene.statistics().cells;
+        missed += !scene.overlaps(shape);
+        most = std::max(most, scene.statistics().cells - before);
+        ++count;
+      }
+    }
+    CAPTURE(model.name, count, most);
+    CHECK(missed == 0);
+    CHECK(most < 10000);
+  }
+}
+
+TEST_CASE("An instance's overlaps are those of the mapped mesh", "[intersect][overlaps][instances]") {
+  Random random(24);
+  for (const Model& model : {Model{"cube", "catmark", shaken(cube(), 0.2)}, Model{"poles", "loop", poles("loop", 7)},
+                             Model{"sheet", "catmark", shaken(sheet("catmark", 3, 3), 0.3)}}) {
+    const auto object = make_object(model.mesh, model.scheme);
+    for (int k = 0; k < 6; ++k) {
+      const Affine map = random_affine(random), far = Eigen::Translation3d(100, 0, 0) * map;
+      const Scene instances(std::vector<Instance>{{object, far}, {object, map}});
+      const Scene mapped(image_of(model.mesh, map), model.scheme);
+      const double diagonal = (mapped.bounds().upper - mapped.bounds().lower).norm();
+      int differ = 0;
+      double outside = 0;
+      for (int i = 0; i < 60; ++i) {
+        const Vec3 p = mapped.bounds().centre() + 0.3 * diagonal * random.point();
+        const auto closest = mapped.closest_point(p);
+        std::vector<Shape> shapes{random_shape(p, 0.3 * diagonal, random)};
+        for (const double gap : {1e-9, -1e-9})
+          for (const Shape& shape : shapes_in_ball(p, closest->sample.position, gap * diagonal, random))
+            shapes.push_back(shape);
+        for (const Shape& shape : shapes) {
+          const auto contact = instances.overlaps(shape), expected = mapped.overlaps(shape);
+          differ += contact.has_value() != expected.has_value() || (contact && contact->instance != 1);
+          if (contact) outside = std::max(outside, distance_from(shape, contact->sample.position) / diagonal);
+        }
+      }
+      CAPTURE(model.name, k);
+      CHECK(differ == 0);
+      CHECK(outside < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("Overlaps far from the origin and at any scale", "[intersect][overlaps]") {
+  Random random(25);
+  for (const double scale : {1e-150, 1e-6, 1.0, 1e6, 1e150}) {
+    for (const double offset : {0.0, 1e5}) {
+      Affine map = Affine::Identity();
+      map.linear() *= scale;
+      map.translation() = Vec3(offset, -offset, offset) * scale;
+      const Scene scene(image_of(shaken(cube(), 0.2), map), "catmark");
+      int wrong = 0;
+      for (int i = 0; i < 20; ++i) {
+        const Vec3 p = map * Vec3(2 * random.point());
+        const auto closest = scene.closest_point(p);
+        if (closest->distance < 1e-3 * scale) continue;
+        for (const double gap : {1e-7, -1e-7})
+          for (const Shape& shape : shapes_in_ball(p, closest->sample.position, gap * scale, random))
+            wrong += scene.overlaps(shape).has_value() != (gap < 0);
+      }
+      CAPTURE(scale, offset);
+      CHECK(wrong == 0);
+    }
+  }
+}
+
+TEST_CASE("An overlap does not depend on what was asked before, on threads or on memory", "[intersect][overlaps]") {
+  Random random(26);
+  const ControlMesh mesh = shaken(poles("catmark", 9), 0.2);
+  std::vector<Shape> shapes;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 at = 2 * random.point();
+    shapes.push_back(random_shape(at, 0.5, random));
+  }
+  SceneOptions little;
+  little.budget = std::make_shared<PatchBudget>(1);
+  const Scene fresh(mesh, "catmark"), backwards(mesh, "catmark"), poor(mesh, "catmark", little);
+  const auto all = fresh.overlaps(shapes), again = fresh.overlaps(shapes), tight = poor.overlaps(shapes);
+  int differ = 0;
+  for (std::size_t i = shapes.size(); i-- > 0;) {
+    const auto single = backwards.overlaps(shapes[i]);
+    differ += !same(single, all[i]) || !same(single, again[i]) || !same(single, tight[i]);
+  }
+  CHECK(differ == 0);
+  CHECK(little.budget->held() <= 1);
+  CHECK(fresh.statistics().shapes + fresh.statistics().points == 2 * shapes.size());
+}
+
+TEST_CASE("Surfaces without polynomials overlap", "[intersect][overlaps][plugin]") {
+  Random random(27);
+  for (const bool quads : {false, true}) {
+    const auto masks = load_plugin(test::example_plugin(quads ? "kobbelt" : "butterfly")).masks;
+    const ControlMesh mesh = quads ? shaken(cube(), 0.1) : shaken(tetrahedron(), 0.1);
+    const Scene scene(mesh, masks);
+    int wrong = 0;
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 p = 2 * random.point();
+      const auto closest = scene.closest_point(p);
+      if (closest->distance < 1e-2) continue;
+      for (const double gap : {1e-6, -1e-6})
+        for (const Shape& shape : shapes_in_ball(p, closest->sample.position, gap, random))
+          wrong += scene.overlaps(shape).has_value() != (gap < 0);
+    }
+    CAPTURE(quads);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("Shapes that are none are refused, and nothing overlaps an empty scene", "[intersect][overlaps]") {
+  const Scene scene(cube(), "catmark");
+  const double nan = std::nan("");
+  const Eigen::Matrix3d skew = Eigen::Matrix3d::Identity() + 0.1 * Eigen::Matrix3d::Ones();
+  const std::vector<std::pair<Shape, std::string>> bad{
+      {Sphere{{nan, 0, 0}, 1}, "is not finite"},
+      {Sphere{{0, 0, 0}, 0}, "expected a positive length"},
+      {Sphere{{0, 0, 0}, nan}, "expected a positive length"},
+      {Sphere{{0, 0, 0}, infinity}, "expected a positive length"},
+      {Capsule{{0, infinity, 0}, {0, 0, 0}, 1}, "is not finite"},
+      {Capsule{{0, 1, 0}, {0, 0, 0}, -1}, "expected a positive length"},
+      {Triangle{{0, 1, 0}, {0, 0, nan}, {0, 0, 0}}, "is not finite"},
+      {OrientedBox{{0, 0, 0}, {1, -1, 1}}, "expected a finite length"},
+      {OrientedBox{{0, 0, 0}, {1, nan, 1}}, "expected a finite length"},
+      {OrientedBox{{0, 0, 0}, {1, 1, 1}, skew}, "at right angles"},
+      {OrientedBox{{0, 0, 0}, {1, 1, 1}, nan * skew}, "at right angles"}};
+  for (const auto& [shape, message] : bad) {
+    const Shape one = shape;
+    CAPTURE(message);
+    CHECK(refusal_of([&] { scene.overlaps(one); }).find(message) != std::string::npos);
+    const std::vector<Shape> all{Sphere{{0, 0, 0}, 1}, one};
+    CHECK(refusal_of([&] { scene.overlaps(all); }).find("shape 1: ") == 0);
+  }
+  SceneOptions uniform;
+  uniform.method = Method::uniform;
+  CHECK(refusal_of([&] {
+          Scene(cube(), "catmark", uniform).overlaps(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 9, 0}});
+        }).find("Method::exact") != std::string::npos);
+
+  ControlMesh hole = sheet("catmark", 1, 1);
+  hole.holes = {0};
+  const Scene none(std::vector<Instance>{}), holes(hole, "catmark");
+  for (const Shape& shape :
+       {Shape(Sphere{{0, 0, 0}, 9}), Shape(OrientedBox{{0, 0, 0}, {9, 9, 9}}), Shape(Capsule{{0, 0, 0}, {1, 0, 0}, 9}),
+        Shape(Triangle{{-9, 0, 0}, {9, 9, 0}, {9, -9, 0}})}) {
+    CHECK(!none.overlaps(shape));
+    CHECK(!holes.overlaps(shape));
+  }
+}
+
 }  // namespace shaolin
