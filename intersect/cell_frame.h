@@ -34,6 +34,11 @@ class CellFrame {
   double low(const SurfaceCell& cell, const Vec3& n) const {
     return cell.low(linear_.transpose() * n) + n.dot(offset_);
   }
+  /// A lower bound of |map x| over a cell relative to a point, as SurfaceCell::least_length().
+  double least_length(const SurfaceCell& cell, const Eigen::Matrix3d& map, const Vec3& point,
+                      const Parameter& at) const {
+    return cell.least_length(map * linear_, map * (offset_ - point), at);
+  }
   std::optional<FramedSample> sample(const SurfaceCell& cell, const Parameter& at) const {
     const std::optional<CellSample> own = cell.sample(at);
     if (!own) return {};

@@ -69,6 +69,19 @@ double Simplex::support(const Vec3& n) const {
   return most;
 }
 
+auto Simplex::flat() const -> std::optional<Flat> {
+  Flat flat{Eigen::Matrix3d::Identity(), corners_[0]};
+  if (corners_.size() == 1) return flat;
+  if (corners_.size() == 2) {
+    const Vec3 along = (corners_[1] - corners_[0]).normalized();  // zero for two that are one point
+    flat.across -= along * along.transpose();
+    return flat;
+  }
+  if (sides_.empty()) return {};
+  flat.across = sides_[0] * sides_[0].transpose();
+  return flat;
+}
+
 Block::Block(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half)
     : Convex(0), centre_(centre), axes_(axes), half_(half) {
   for (Eigen::Index i = 0; i < 3; ++i)

@@ -1,6 +1,7 @@
 #pragma once
 /// Convex shapes as searches see them: by the point that is nearest, and by how far they reach.
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "box.h"
@@ -33,6 +34,12 @@ class Convex {
     Eigen::Matrix3d normals = Eigen::Matrix3d::Identity();
   };
 
+  /// The point, line or plane that holds a core without an inside: what is normal to it, as a projection, and a point.
+  struct Flat {
+    Eigen::Matrix3d across;
+    Vec3 point;
+  };
+
   explicit Convex(double radius) : radius_(radius) {}
   virtual ~Convex() = default;
 
@@ -40,6 +47,7 @@ class Convex {
   virtual Nearest nearest(const Vec3& point) const = 0;
   /// The largest n . x of the core.
   virtual double support(const Vec3& n) const = 0;
+  virtual std::optional<Flat> flat() const { return {}; }
   /// The normals of its sides, where it has some.
   virtual const std::vector<Vec3>& sides() const { return no_sides; }
 
@@ -55,6 +63,7 @@ class Simplex final : public Convex {
 
   Nearest nearest(const Vec3& point) const override;
   double support(const Vec3& n) const override;
+  std::optional<Flat> flat() const override;
   const std::vector<Vec3>& sides() const override { return sides_; }
 
  private:

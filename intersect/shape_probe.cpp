@@ -44,6 +44,11 @@ bool ShapeProbe::is_apart_along_sides(const SurfaceCell& cell, double margin) co
   return std::any_of(sides.begin(), sides.end(), [&](const Vec3& side) { return is_apart(cell, side, margin); });
 }
 
+bool ShapeProbe::is_beside(const SurfaceCell& cell, const FramedSample& nearest, double margin) const {
+  const std::optional<Convex::Flat> flat = shape_.flat();
+  return flat && frame_.least_length(cell, flat->across, flat->point, nearest.own.at) - shape_.radius() > margin;
+}
+
 /// The step solves N^T (S - q) = 0, with q the core's nearest point and N what is normal to the core there: one
 /// equation over a side, two over an edge, three in a corner. So where the surface crosses a side or an edge steps
 /// converge quadratically. (They lead to the core of a rounded shape, through what is around it.) Two or three
@@ -115,7 +120,7 @@ auto ShapeProbe::operator()(const SurfaceCell& cell, double margin) const -> Ans
   constexpr int most_steps = 8;
   for (int i = 0; i < most_steps && approach(cell, *place, now); ++i)
     if (now.distance <= near) return {Verdict::met, now.distance, place};
-  if (is_apart(cell, now.way, margin)) return {Verdict::apart, now.distance, {}};
+  if (is_apart(cell, now.way, margin) || is_beside(cell, *place, margin)) return {Verdict::apart, now.distance, {}};
   return {Verdict::open, now.distance, place};
 }
 

@@ -41,6 +41,9 @@ class ShapeProbe {
     double distance;  ///< from the shape; negative inside of a rounded one
   };
   Gap gap(const Vec3& point) const;
+  /// True if the point, line or plane that holds the shape's core is farther from the cell than its radius: where a
+  /// capsule lies in a groove no plane separates the two, unless the cell is as small as the gap.
+  bool is_beside(const SurfaceCell& cell, const FramedSample& nearest, double margin) const;
   bool is_apart_along_sides(const SurfaceCell& cell, double margin) const;
   /// Steps inside of the cell: towards where the surface meets the core, and towards where it is nearest to the core.
   std::optional<Parameter> step_across(const SurfaceCell& cell, const FramedSample& from, const Gap& gap) const;

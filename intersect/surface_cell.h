@@ -46,6 +46,11 @@ class SurfaceCell {
     return n.dot(box_.centre()) - 0.5 * n.cwiseAbs().dot(box_.upper - box_.lower);
   }
 
+  /// A lower bound of |map x + offset| over the cell of a patch, up to rounding: that of a function of second degree
+  /// which touches the square at a place of the cell and is nowhere above it. Tight if the length is least there. 0
+  /// where nothing is known.
+  virtual double least_length(const Eigen::Matrix3d&, const Vec3&, const Parameter&) const { return 0; }
+
   /// The place of the cell at a parameter of its domain, or, where only one is at hand, that one; empty for cells that
   /// are known by bounds alone.
   virtual std::optional<CellSample> sample(const Parameter&) const { return {}; }

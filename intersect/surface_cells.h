@@ -7,6 +7,7 @@
 #include "counters.h"
 #include "patch_budget.h"
 #include "patch_tree.h"
+#include "squared_distance.h"
 #include "surface_cell.h"
 
 namespace shaolin {
@@ -47,6 +48,7 @@ class PolynomialCell final : public SurfaceCell {
     combine(1, plane, n.z(), net_.z, along);
     return Range(along).low;
   }
+  double least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const override;
   std::optional<CellSample> sample(const Parameter& at) const override {
     const Bezier patch = net_.bezier<Bezier>();
     return CellSample{at, patch.position(at), patch.derivatives(at)};
@@ -69,6 +71,18 @@ class PolynomialCell final : public SurfaceCell {
 
   Net net_;
 };
+
+template <class Bezier>
+double PolynomialCell<Bezier>::least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const {
+  Bezier image = net_.bezier<Bezier>();
+  for (Vec3& point : image.b) point = map * point + offset;
+  const Vec3 place = image.position(at);
+  const Derivatives d = image.derivatives(at);
+  const SquaredDistance<Bezier> all(Net(image), place);
+  const Quadratic below{at, {2 * place.dot(d.du), 2 * place.dot(d.dv)}, all.below()};
+  const double change = std::max(lowest<typename Bezier::DomainType>(below).change, all.least());
+  return std::sqrt(std::max(0.0, place.squaredNorm() + change));
+}
 
 /// A patch of a scheme without polynomials, or a piece of one. Where the neighbourhood is a lattice's, the surface is
 /// the plane of three corners and a remainder that falls with the square of the cell's size (limit_bounds.h).

@@ -180,6 +180,30 @@ TEST_CASE("Boxes whose sides and edges touch a surface are told apart", "[inters
   }
 }
 
+TEST_CASE("Shapes that touch a surface along a line are told apart with few cells", "[intersect][overlaps]") {
+  // A ridge, and a groove in which a capsule of nearly its radius lies; the lines run along y.
+  for (const double bend : {-0.2, 0.2}) {
+    ControlMesh mesh = sheet("catmark", 6, 6);
+    for (Vec3& p : mesh.positions) p = Vec3(p.x() - 3, p.y() - 3, bend * (p.x() - 3) * (p.x() - 3));
+    const Scene scene(mesh, "catmark");
+    const double height = scene.closest_point({0, 0, bend < 0 ? 9.0 : -9.0})->sample.position.z();
+    for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 0.0, -1e-12, -1e-9, -1e-3}) {
+      const double z = height + gap;
+      std::vector<Shape> shapes{Capsule{{0, -2, z + 0.3}, {0, 2, z + 0.3}, 0.3},
+                                Capsule{{0, -2, z + 2}, {0, 2, z + 2}, 2},
+                                Triangle{{0, -2, z}, {0, 2, z}, {0, 0, z + 1}}};
+      if (bend < 0) shapes.push_back(OrientedBox{{0, 0, z + 1}, {1, 2, 1}});
+      for (const Shape& shape : shapes) {
+        const std::uint64_t before = scene.statistics().cells;
+        const bool overlaps = scene.overlaps(shape).has_value();
+        CAPTURE(bend, gap, shape.index());
+        CHECK(overlaps == (gap <= 0));
+        CHECK(scene.statistics().cells - before < 2000);
+      }
+    }
+  }
+}
+
 TEST_CASE("Thin shapes cross surfaces without holding a sample", "[intersect][overlaps]") {
   Random random(23);
   for (const Model& model : shape_models()) {
