@@ -30,6 +30,14 @@ struct SceneBox {
   SceneBox() = default;
   SceneBox(const Box& box, const BoxSpace& space);
 
+  /// A box in the object's coordinates that holds what this one does. Powers of two take single numbers exactly; the
+  /// sum with the middle rounds, by less than what the bounds were moved outward unless the middle is far off.
+  Box in_object(const BoxSpace& space) const {
+    const auto side = [&](const float(&b)[3]) -> Vec3 { return Vec3(b[0], b[1], b[2]) / space.scale + space.centre; };
+    const Box box{side(bounds[0]), side(bounds[1])};
+    return box.grown(2 * unit_roundoff * box.largest_coordinate());
+  }
+
   void add(const SceneBox& box) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       bounds[0][axis] = std::min(bounds[0][axis], box.bounds[0][axis]);
@@ -50,6 +58,13 @@ struct alignas(32) EightBoxes {
   }
   /// A box that holds all.
   SceneBox bound() const;
+  SceneBox box(std::size_t i) const {
+    SceneBox box;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t axis = 0; axis < 3; ++axis) box.bounds[side][axis] = bounds[side][axis][i];
+    return box;
+  }
+  bool is_empty(std::size_t i) const { return bounds[0][0][i] > bounds[1][0][i]; }
 };
 
 /// A ray in a scene's coordinates, from a start near the scene on, in single precision; on both sides of its origin if

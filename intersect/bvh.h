@@ -29,6 +29,15 @@ class Bvh {
   template <class Far, class Visit>
   void nearest_first(const BoxPoint& point, Far far, Visit visit) const;
 
+  /// Calls visit(child, box) for what a node leads to, in their order: `child` is a node or ~primitive, `box` is in the
+  /// coordinates of the boxes that the hierarchy was made of. Node 0 is the root of a hierarchy that is not empty.
+  template <class Visit>
+  void open(std::int32_t node, Visit visit) const {
+    const Node& at = nodes_[static_cast<std::size_t>(node)];
+    for (std::size_t i = 0; i < width; ++i)
+      if (!at.boxes.is_empty(i)) visit(at.child[i], at.boxes.box(i).in_object(space_));
+  }
+
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
   const Box& bounds() const { return bounds_; }
   const BoxSpace& space() const { return space_; }

@@ -39,6 +39,7 @@ struct Statistics : RayCounters {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
   std::uint64_t points = 0;           ///< asked for their closest point
+  std::uint64_t shapes = 0;           ///< asked for overlaps, contacts of sweeps, or faces to pick
   std::uint64_t faces = 0;            ///< faces with a limit surface (n-gons count once per corner)
   std::uint64_t faces_touched = 0;    ///< of these, the ones that any ray made refine
   std::uint64_t patches_split = 0;    ///< patches whose four children were made; again, if they were evicted

@@ -18,6 +18,7 @@ namespace shaolin {
 class LimitSurface;
 class PatchBudget;
 class SchemeMasks;
+class SurfaceCell;
 
 /// What rays are intersected with: the limit surface, to rounding error; or, for comparison, what Mueller et al. 2003
 /// measured: chord triangles where their algorithm stops refining (chord_finish.h), the same by Woodward's tests
@@ -62,6 +63,10 @@ class Object {
   /// The closest place within the query's radius, or empty: of its answer, all but distance and instance, in the
   /// object's space. Throws InputError unless the method is exact.
   virtual std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const = 0;
+
+  /// The surface as one cell, from which a query goes on to its parts (surface_cell.h); null if there is none. It is of
+  /// one thread, and patches that it meets stay as long as it lives. Throws InputError unless the method is exact.
+  virtual std::unique_ptr<SurfaceCell> cells() const = 0;
 };
 
 /// Builds the hierarchy over the control faces. `scheme` as in make_limit_surface(). O(n log n) for n faces; nothing is

@@ -119,6 +119,13 @@ class Scene::Implementation {
   }
   std::vector<std::optional<ClosestPoint>> closest_points(std::span<const Vec3> points, double radius) const;
 
+  std::vector<PlacedObject> objects_near(const Vec3& point, double radius) const;
+  void count_shape(const RayCounters& counters) const {
+    Statistics& local = own_counters();
+    local += counters;
+    ++local.shapes;
+  }
+
   Statistics statistics() const;
   const Box& bounds() const { return bounds_; }
   const std::vector<Instance>& instances() const { return instances_; }
@@ -129,6 +136,8 @@ class Scene::Implementation {
   std::optional<ClosestPoint> closest_point(const Vec3& p, double radius, RayCounters& counters) const;
   static std::optional<ClosestPoint> closest_point(const Leaf& leaf, const Vec3& p, double radius,
                                                    RayCounters& counters);
+  template <class Reach, class Visit>
+  void nearest_first(const Vec3& p, Reach reach, Visit visit) const;
   std::optional<Hit> intersect_instances(const Ray& ray, RayCounters& counters) const;
   bool occluded_by_instances(const Ray& ray, RayCounters& counters) const;
   std::vector<Crossing> all_hits_of_instances(const Ray& ray, RayCounters& counters) const;
@@ -321,27 +330,46 @@ std::optional<ClosestPoint> Scene::Implementation::closest_point(const Leaf& lea
   return closest;
 }
 
-std::optional<ClosestPoint> Scene::Implementation::closest_point(const Vec3& p, double radius,
-                                                                 RayCounters& counters) const {
-  if (leaves_.empty()) return {};
-  if (sole_) return closest_point(leaves_.front(), p, radius, counters);
-  std::optional<ClosestPoint> best;
+/// Calls visit(leaf) for those whose boxes are not farther from the point than `reach()`, which may shrink meanwhile.
+template <class Reach, class Visit>
+void Scene::Implementation::nearest_first(const Vec3& p, Reach reach, Visit visit) const {
   const Vec3 in_boxes = bvh_.space()(p);
   const bool is_finite = in_boxes.allFinite();
   const double unit = is_finite ? 1 / power_of_two_below(in_boxes.lpNorm<1>() + 1) : 1;
   const BoxPoint point(is_finite ? in_boxes : Vec3(Vec3::Zero()), unit * Eigen::Matrix3d::Identity(),
                        is_finite ? 0 : std::numeric_limits<double>::infinity(),
                        {bvh_.space()(bounds_.lower), bvh_.space()(bounds_.upper)});
-  double reach = radius;
   bvh_.nearest_first(
-      point, [&] { return point.local(unit * (bvh_.space().scale * reach)); },
-      [&](int primitive, float) {
-        const auto closest = closest_point(leaves_[static_cast<std::size_t>(primitive)], p, reach, counters);
+      point, [&] { return point.local(unit * (bvh_.space().scale * reach())); },
+      [&](int primitive, float) { visit(leaves_[static_cast<std::size_t>(primitive)]); });
+}
+
+std::optional<ClosestPoint> Scene::Implementation::closest_point(const Vec3& p, double radius,
+                                                                 RayCounters& counters) const {
+  if (leaves_.empty()) return {};
+  if (sole_) return closest_point(leaves_.front(), p, radius, counters);
+  std::optional<ClosestPoint> best;
+  double reach = radius;
+  nearest_first(
+      p, [&] { return reach; },
+      [&](const Leaf& leaf) {
+        const auto closest = closest_point(leaf, p, reach, counters);
         if (!closest || (best && best->distance <= closest->distance)) return;
         best = closest;
         reach = closest->distance;
       });
   return best;
+}
+
+std::vector<PlacedObject> Scene::Implementation::objects_near(const Vec3& point, double radius) const {
+  std::vector<PlacedObject> near;
+  const auto add = [&](const Leaf& leaf) { near.push_back({leaf.object, &leaf.placement, leaf.instance}); };
+  if (sole_)
+    std::for_each(leaves_.begin(), leaves_.end(), add);
+  else
+    nearest_first(
+        point, [radius] { return radius; }, add);
+  return near;
 }
 
 std::vector<std::optional<ClosestPoint>> Scene::Implementation::closest_points(std::span<const Vec3> points,
@@ -365,6 +393,7 @@ Statistics Scene::Implementation::statistics() const {
     total.rays += local.rays;
     total.hits += local.hits;
     total.points += local.points;
+    total.shapes += local.shapes;
   }
   for (const Object* object : objects_) object->add_to(total);
   if (!sole_) total.bytes += bvh_.bytes() + leaves_.size() * sizeof(Leaf);
@@ -425,6 +454,10 @@ std::optional<ClosestPoint> Scene::closest_point(const Vec3& p, double radius) c
 std::vector<std::optional<ClosestPoint>> Scene::closest_points(std::span<const Vec3> points, double radius) const {
   return implementation_->closest_points(points, radius);
 }
+std::vector<PlacedObject> Scene::objects_near(const Vec3& point, double radius) const {
+  return implementation_->objects_near(point, radius);
+}
+void Scene::count_shape(const RayCounters& counters) const { implementation_->count_shape(counters); }
 const std::vector<Instance>& Scene::instances() const { return implementation_->instances(); }
 Statistics Scene::statistics() const { return implementation_->statistics(); }
 Box Scene::bounds() const { return implementation_->bounds(); }

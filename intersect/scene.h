@@ -8,6 +8,8 @@
 
 #include "affine.h"
 #include "object.h"
+#include "shape_contact.h"
+#include "shapes.h"
 
 namespace shaolin {
 
@@ -15,6 +17,15 @@ namespace shaolin {
 struct Instance {
   std::shared_ptr<const Object> object;
   Affine transform = Affine::Identity();
+};
+
+class Placement;
+
+/// An instance as queries see it, for as long as its scene is there.
+struct PlacedObject {
+  const Object* object;
+  const Placement* placement;
+  int instance;
 };
 
 /// Limit surfaces, ready for rays. Queries are const and may run concurrently; refinement that they cause is kept and
@@ -88,6 +99,35 @@ class Scene {
   std::vector<std::optional<ClosestPoint>> closest_points(
       std::span<const Vec3> points, double radius = std::numeric_limits<double>::infinity()) const;
 
+  /// A point of the surfaces that the shape holds, or empty: exact on the limit surface, which is refined where it must
+  /// be to prove that there is none. Touching is overlapping, to rounding: to some 1e-13 of the size of scene and shape
+  /// and their distance. (Of a sphere it is the closest point to its centre, and its distance at most the radius.)
+  /// Which point it is depends on scene and shape alone. Throws InputError for what check() in convex.h refuses, and
+  /// where the method is not exact.
+  std::optional<ShapeContact> overlaps(const Shape& shape) const;
+
+  /// Many shapes, on as many threads as oneTBB gives: answer i is that to shapes[i] alone, bit for bit. Throws
+  /// InputError that names the first shape that is refused, before any is asked.
+  std::vector<std::optional<ShapeContact>> overlaps(std::span<const Shape> shapes) const;
+
+  /// A point that a surface of this scene and one of another have in common, or empty; as overlaps() of a shape. Both
+  /// stand in the same world. Crossings are found in a few steps; surfaces that touch along curves, or nearly do, take
+  /// as many cells as the curve has of their size.
+  std::optional<SurfaceContact> overlaps(const Scene& other) const;
+
+  /// The faces that the frustum holds a point of the surface of, in ascending order of instance and face: exact on the
+  /// limit surface, to rounding as overlaps(), with faces that hide each other. Faces that are inside as a whole cost
+  /// their boxes. Throws InputError for what check() in convex.h refuses, and where the method is not exact.
+  std::vector<PickedFace> pick(const Frustum& frustum) const;
+
+  /// Where a moving sphere first touches a surface, or empty if it never does. At that time the surfaces are the radius
+  /// away from its centre, and before it farther, to rounding as overlaps(). If they are nearer than the radius at the
+  /// start, it is the closest point at t = 0. Throws InputError for numbers that are not finite, a radius that is not
+  /// above 0, and where the method is not exact.
+  std::optional<SweepContact> sweep(const SphereSweep& sweep) const;
+  /// Many, as overlaps() of many shapes.
+  std::vector<std::optional<SweepContact>> sweep(std::span<const SphereSweep> sweeps) const;
+
   const std::vector<Instance>& instances() const;
 
   /// The surface of an instance's object, in the object's own space. Throws InputError if there is no such instance.
@@ -102,6 +142,12 @@ class Scene {
 
  private:
   class Implementation;
+
+  /// Objects whose boxes are within a radius of a point, nearest first.
+  std::vector<PlacedObject> objects_near(const Vec3& point, double radius) const;
+  /// Adds a query with a shape to the statistics.
+  void count_shape(const RayCounters& counters) const;
+
   std::unique_ptr<const Implementation> implementation_;
 };
 

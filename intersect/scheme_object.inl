@@ -39,6 +39,12 @@ class SchemeObject final : public Object {
     else
       throw InputError("closest points are asked of the limit surface itself; expected Method::exact");
   }
+  std::unique_ptr<SurfaceCell> cells() const override {
+    if constexpr (requires { intersector_.cells(); })
+      return intersector_.cells();
+    else
+      throw InputError("shapes are held against the limit surface itself; expected Method::exact");
+  }
 
  private:
   SchemeSurface<S> surface_;

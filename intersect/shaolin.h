@@ -14,6 +14,7 @@
 #include "crossings.h"
 #include "face_bounds.h"
 #include "start_patches.h"
+#include "surface_cells.h"
 
 namespace shaolin {
 
@@ -69,6 +70,9 @@ class ShaoLin {
   /// alone. For finishes whose start patches have parts (exact_finish.h). Throws as intersect() does.
   std::optional<ClosestPoint> closest_point(const PointQuery& query,
                                             RayCounters& counters) const requires HasParts<Finish<S>>;
+
+  /// The surface as one cell, null if there is none; see surface_cell.h. For finishes whose start patches have parts.
+  std::unique_ptr<SurfaceCell> cells() const requires HasParts<Finish<S>>;
 
   /// A box that holds the surface.
   const Box& bounds() const { return bvh_.bounds(); }
@@ -250,6 +254,21 @@ std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
     closest.sample = *surface_.evaluate(closest.at);
   }
   return closest;
+}
+
+template <Scheme S, template <class> class Finish>
+std::unique_ptr<SurfaceCell> ShaoLin<S, Finish>::cells() const requires HasParts<Finish<S>> {
+  if (primitives_.empty()) return {};
+  const auto leaf = [this](int primitive) -> typename CellSource<S>::Leaf {
+    const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+    return {face, sub};
+  };
+  const auto start = [this](int primitive) -> typename CellSource<S>::Start {
+    const StartPatch& made = start_patch(primitive);
+    return {made.patch(), made.parts()};
+  };
+  return std::make_unique<HierarchyCell<S>>(
+      std::make_shared<const CellSource<S>>(start_patches_.budget(), bvh_, start_patches_.totals(), leaf, start));
 }
 
 }  // namespace shaolin

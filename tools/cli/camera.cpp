@@ -106,13 +106,16 @@ View::View(const Camera& camera, ImageSize size)
   up_ = right_.cross(forward_);
 }
 
+Vec3 View::direction(double x, double y) const {
+  const double across = 2 * x / size_.width - 1;
+  const double upward = 1 - 2 * y / size_.height;
+  return forward_ + half_height_ * (across * size_.aspect() * right_ + upward * up_);
+}
+
 Ray View::ray(int x, int y) const {
-  const double across = 2 * (x + 0.5) / size_.width - 1;
-  const double upward = 1 - 2 * (y + 0.5) / size_.height;
-  const Vec3 direction = forward_ + half_height_ * (across * size_.aspect() * right_ + upward * up_);
   Ray ray;
   ray.origin = camera_.eye;
-  ray.direction = direction.normalized();
+  ray.direction = direction(x + 0.5, y + 0.5).normalized();
   ray.footprint.growth = 2 * half_height_ / size_.height;
   return ray;
 }

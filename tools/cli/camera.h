@@ -47,6 +47,9 @@ class View {
 
   /// The ray through the centre of a pixel; row 0 is the top row. Its direction is unit, so t is the distance.
   Ray ray(int x, int y) const;
+  /// The way to a place of the image, not unit: pixels are squares between whole numbers, (0, 0) is the upper left
+  /// corner.
+  Vec3 direction(double x, double y) const;
 
   const Camera& camera() const { return camera_; }
   const ImageSize& size() const { return size_; }

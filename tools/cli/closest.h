@@ -3,17 +3,19 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <limits>
-#include <vector>
 
 #include "tools/cli/command.h"
 #include "tools/cli/model.h"
+#include "tools/cli/row_input.h"
 
 namespace shaolin {
 
+/// Points, for the subcommands that take them.
+inline RowFormat point_format() { return {"point", "points", "x,y,z", {3}, "A point"}; }
+
 struct ClosestOptions {
   ModelOptions model;
-  std::filesystem::path file;                               ///< --points; empty: none
-  std::vector<Vec3> points;                                 ///< --point, as often as given
+  RowInput points{point_format()};                          ///< --points or --point
   double radius = std::numeric_limits<double>::infinity();  ///< --radius
   std::filesystem::path output;                             ///< -o
   int threads = 0;                                          ///< --threads; 0: all

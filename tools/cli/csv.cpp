@@ -36,7 +36,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 class CsvReader {
  public:
-  CsvReader(const std::string& name, std::initializer_list<std::size_t> column_counts)
+  CsvReader(const std::string& name, const std::vector<std::size_t>& column_counts)
       : name_(name), column_counts_(column_counts), table_(name) {}
 
   CsvTable read(std::string_view text) {
@@ -87,7 +87,7 @@ class CsvReader {
   }
 
   const std::string& name_;
-  std::initializer_list<std::size_t> column_counts_;
+  const std::vector<std::size_t>& column_counts_;
   CsvTable table_;
   int line_ = 0;
   bool is_first_ = true;
@@ -115,12 +115,12 @@ void CsvTable::add_row(std::span<const double> values, int line) {
   lines_.push_back(line);
 }
 
-CsvTable read_csv(const std::filesystem::path& file, std::initializer_list<std::size_t> column_counts) {
+CsvTable read_csv(const std::filesystem::path& file, const std::vector<std::size_t>& column_counts) {
   const std::string text = read_text_file(file);
   return CsvReader(file.string(), column_counts).read(text);
 }
 
-CsvTable read_csv(std::istream& stream, const std::string& name, std::initializer_list<std::size_t> column_counts) {
+CsvTable read_csv(std::istream& stream, const std::string& name, const std::vector<std::size_t>& column_counts) {
   const std::string text = read_text(stream, name);
   return CsvReader(name, column_counts).read(text);
 }

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <iosfwd>
 #include <optional>
 #include <span>
@@ -53,10 +52,10 @@ class CsvTable {
 /// must be as long as it is. Blank lines, CR before LF and blanks around fields are skipped; '#' and '"' have no
 /// meaning; "inf" and "nan" are numbers.
 /// Throws InputError with file and line for a row of another length or a field that is no number. O(file size).
-CsvTable read_csv(const std::filesystem::path& file, std::initializer_list<std::size_t> column_counts);
+CsvTable read_csv(const std::filesystem::path& file, const std::vector<std::size_t>& column_counts);
 
 /// The same from a stream; `name` stands for the file in messages.
-CsvTable read_csv(std::istream& stream, const std::string& name, std::initializer_list<std::size_t> column_counts);
+CsvTable read_csv(std::istream& stream, const std::string& name, const std::vector<std::size_t>& column_counts);
 
 /// The name that stands for the standard output.
 inline constexpr const char* standard_output = "-";

@@ -10,10 +10,14 @@
 #include "tools/cli/command.h"
 #include "tools/cli/eval.h"
 #include "tools/cli/info.h"
+#include "tools/cli/inside.h"
+#include "tools/cli/overlap.h"
 #include "tools/cli/peers.h"
+#include "tools/cli/pick.h"
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
 #include "tools/cli/scheme.h"
+#include "tools/cli/sweep.h"
 #include "tools/cli/unfinished_files.h"
 #include "tools/cli/validate.h"
 
@@ -21,7 +25,7 @@ namespace shaolin {
 namespace {
 
 const char* const description =
-    "Ray and closest-point queries on the limit surface of subdivision meshes (Loop, Catmull-Clark), without "
+    "Ray, distance and collision queries on the limit surface of subdivision meshes (Loop, Catmull-Clark), without "
     "tessellation.\n"
     "'shaolin SUBCOMMAND --help' explains a subcommand.";
 
@@ -52,6 +56,10 @@ int parse_and_run(int argc, char** argv) {
   add_render(app, command);
   add_query(app, command);
   add_closest(app, command);
+  add_inside(app, command);
+  add_overlap(app, command);
+  add_sweep(app, command);
+  add_pick(app, command);
   add_eval(app, command);
   add_info(app, command);
   add_validate(app, command);

@@ -1,0 +1,252 @@
+#pragma once
+/// The cells of an object of one scheme: through its hierarchy, its start patches and the parts that rays use, too,
+/// down to pieces that are made for one query.
+#include <functional>
+
+#include "bvh.h"
+#include "counters.h"
+#include "patch_budget.h"
+#include "patch_tree.h"
+#include "squared_distance.h"
+#include "surface_cell.h"
+
+namespace shaolin {
+
+/// Where cells come from, for as long as a query takes. The patches that it meets stay until this ends.
+template <Scheme S>
+struct CellSource {
+  /// Whose patch a leaf of the hierarchy stands for.
+  struct Leaf {
+    int face, sub;
+  };
+  /// A start patch, and its parts.
+  struct Start {
+    const PatchNode<S>& patch;
+    typename Parts<S>::Slot& parts;
+  };
+
+  PatchBudget::Query guard;
+  const Bvh& hierarchy;
+  TreeTotals& totals;
+  std::function<Leaf(int primitive)> leaf;
+  std::function<Start(int primitive)> start;
+
+  CellSource(PatchBudget* budget, const Bvh& bvh, TreeTotals& tree_totals, std::function<Leaf(int)> leaves,
+             std::function<Start(int)> starts)
+      : guard(budget), hierarchy(bvh), totals(tree_totals), leaf(std::move(leaves)), start(std::move(starts)) {}
+};
+
+/// A Bezier patch, or a piece of one: its quarters are made for this query.
+template <class Bezier>
+class PolynomialCell final : public SurfaceCell {
+ public:
+  PolynomialCell(const Net& net, const Place& place) : SurfaceCell(hull_of(net), place), net_(net) {}
+
+  double low(const Vec3& n) const override {
+    std::array<double, 16> plane, along;
+    combine(n.x(), net_.x, n.y(), net_.y, plane);
+    combine(1, plane, n.z(), net_.z, along);
+    return Range(along).low;
+  }
+  double least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const override;
+  std::optional<CellSample> sample(const Parameter& at) const override {
+    const Bezier patch = net_.bezier<Bezier>();
+    return CellSample{at, patch.position(at), patch.derivatives(at)};
+  }
+  bool is_triangular() const override { return Bezier::DomainType::corner_count == 3; }
+
+ private:
+  Cells split() const override {
+    Cells parts;
+    const std::array<Bezier, 4> quarters = net_.bezier<Bezier>().split();
+    constexpr FaceKind kind = Bezier::DomainType::corner_count == 3 ? FaceKind::triangle : FaceKind::quad;
+    for (std::size_t k = 0; k < quarters.size(); ++k) {
+      Place part = place();
+      part.domain = part.domain(child_domain<kind>(static_cast<int>(k)));
+      ++part.level;
+      parts.push_back(std::make_unique<PolynomialCell>(Net(quarters[k]), part));
+    }
+    return parts;
+  }
+
+  Net net_;
+};
+
+template <class Bezier>
+double PolynomialCell<Bezier>::least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const {
+  Bezier image = net_.bezier<Bezier>();
+  for (Vec3& point : image.b) point = map * point + offset;
+  const Vec3 place = image.position(at);
+  const Derivatives d = image.derivatives(at);
+  const SquaredDistance<Bezier> all(Net(image), place);
+  const Quadratic below{at, {2 * place.dot(d.du), 2 * place.dot(d.dv)}, all.below()};
+  const double change = std::max(lowest<typename Bezier::DomainType>(below).change, all.least());
+  return std::sqrt(std::max(0.0, place.squaredNorm() + change));
+}
+
+/// A patch of a scheme without polynomials, or a piece of one. Where the neighbourhood is a lattice's, the surface is
+/// the plane of three corners and a remainder that falls with the square of the cell's size (limit_bounds.h).
+template <Scheme S>
+class RefinedCell final : public SurfaceCell {
+  using D = Domain<S::face_kind>;
+
+ public:
+  RefinedCell(Patch<S> patch, const Place& place)
+      : SurfaceCell(limit_bound(patch), place), patch_(std::move(patch)), flat_(flat_part(patch_)) {}
+
+  double low(const Vec3& n) const override {
+    if (!flat_) return SurfaceCell::low(n);
+    const Box& rest = flat_->remainder;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [u, v] : D::corners) least = std::min(least, n.dot(flat_->at({u, v})));
+    return least + n.dot(rest.centre()) - 0.5 * n.cwiseAbs().dot(rest.upper - rest.lower);
+  }
+  /// Only of the centre, which one split makes a corner. A finer place would take as many splits as it has bits.
+  std::optional<CellSample> sample(const Parameter&) const override {
+    return CellSample{D::centre(), evaluate(patch_, D::centre(), false).position, {}};
+  }
+  bool is_triangular() const override { return D::corner_count == 3; }
+
+ private:
+  Cells split() const override {
+    Cells parts;
+    std::vector<Patch<S>> children = patch_.children();
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      Place part = place();
+      part.domain = part.domain(child_domain<S::face_kind>(static_cast<int>(k)));
+      ++part.level;
+      parts.push_back(std::make_unique<RefinedCell>(std::move(children[k]), part));
+    }
+    return parts;
+  }
+
+  Patch<S> patch_;
+  std::optional<FlatPart> flat_;
+};
+
+/// An irregular patch that is kept, with the parts that are.
+template <Scheme S>
+class PatchCell final : public SurfaceCell {
+  using D = Domain<S::face_kind>;
+
+ public:
+  PatchCell(const CellSource<S>& source, const IrregularPatch<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny,
+            const Place& place)
+      : SurfaceCell(hull_bound(patch.patch()), place), source_(source), patch_(patch), slot_(slot), is_tiny_(is_tiny) {}
+
+  /// Of the hull of the points, expanded.
+  double low(const Vec3& n) const override {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& point : patch_.patch().points) {
+      const double along = n.dot(point);
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+    if (const double expansion = patch_.patch().configuration->hull_expansion(); expansion > 0)
+      low -= expansion * (high - low);
+    return std::max(low, SurfaceCell::low(n));
+  }
+  /// Around irregular corners patches shrink without end: of one that is tiny, the corner itself.
+  std::optional<CellSample> sample(const Parameter&) const override;
+  bool is_triangular() const override { return D::corner_count == 3; }
+
+ private:
+  Cells split() const override;
+
+  const CellSource<S>& source_;
+  const IrregularPatch<S>& patch_;
+  typename Parts<S>::Slot& slot_;
+  bool is_tiny_;
+};
+
+/// A node of an object's hierarchy, or a face that it leads to.
+template <Scheme S>
+class HierarchyCell final : public SurfaceCell {
+ public:
+  /// The root of a hierarchy that has faces.
+  explicit HierarchyCell(std::shared_ptr<const CellSource<S>> source)
+      : SurfaceCell(source->hierarchy.bounds(), {}), owned_(std::move(source)), source_(*owned_), child_(0) {}
+  HierarchyCell(const CellSource<S>& source, std::int32_t child, const Box& box)
+      : SurfaceCell(box, place_of(source, child)), source_(source), child_(child) {}
+
+ private:
+  static Place place_of(const CellSource<S>& source, std::int32_t child) {
+    Place place;
+    if (child >= 0) return place;
+    const typename CellSource<S>::Leaf leaf = source.leaf(~child);
+    place.face = leaf.face;
+    place.sub = leaf.sub;
+    return place;
+  }
+  Cells split() const override;
+
+  std::shared_ptr<const CellSource<S>> owned_;  ///< the root's
+  const CellSource<S>& source_;
+  std::int32_t child_;  ///< a node of the hierarchy, or ~primitive
+};
+
+/// The cell of a patch that is kept: all of it, or a numbered piece of a polynomial.
+template <Scheme S>
+std::unique_ptr<SurfaceCell> make_cell(const CellSource<S>& source, int face, int sub, const PatchNode<S>& patch,
+                                       typename Parts<S>::Slot& slot, std::int8_t piece) {
+  using Polynomial = RegularPatch<S::face_kind>;
+  const auto place = [&](const Place& at) { return SurfaceCell::Place{face, sub, at.domain, at.level(), at.rounding}; };
+  if (patch.is_polynomial()) {
+    const int number = std::max<int>(piece, 0);
+    const Net& whole = static_cast<const PolynomialPatch<S>&>(patch).net();
+    Net net;
+    pieces_of<Polynomial>.restrict_to(number, whole.x, net.x);
+    pieces_of<Polynomial>.restrict_to(number, whole.y, net.y);
+    pieces_of<Polynomial>.restrict_to(number, whole.z, net.z);
+    return std::make_unique<PolynomialCell<Polynomial>>(net,
+                                                        place(patch.place().part(Pieces<Polynomial>::domain(number))));
+  }
+  const auto& irregular = static_cast<const IrregularPatch<S>&>(patch);
+  if (patch.is_leaf()) return std::make_unique<RefinedCell<S>>(irregular.patch(), place(patch.place()));
+  return std::make_unique<PatchCell<S>>(source, irregular, slot, piece == Parts<S>::tiny, place(patch.place()));
+}
+
+template <Scheme S>
+std::optional<CellSample> PatchCell<S>::sample(const Parameter&) const {
+  if (!is_tiny_) return {};
+  const Parameter corner = D::nearest(place().domain(D::centre())).array().round();
+  for (const auto& [u, v] : D::corners)
+    if (corner == place().domain({u, v}))
+      return CellSample{{u, v}, evaluate(patch_.patch(), Parameter(u, v), false).position, {}};
+  return {};
+}
+
+template <Scheme S>
+auto PatchCell<S>::split() const -> Cells {
+  // As in ClosestSearch.
+  constexpr int most_levels = 500;
+  if (place().level >= most_levels)
+    throw InputError("a patch does not shrink to a point in " + std::to_string(most_levels) +
+                     " levels: the masks of the scheme do not converge; see 'shaolin scheme check'");
+  using Kept = Parts<S>;
+  const Kept& kept = Kept::of(patch_, slot_, source_.hierarchy.space(), source_.totals);
+  Cells parts;
+  for (const typename Kept::Eight* eight : {&kept.first(), kept.second()}) {
+    for (std::size_t i = 0; eight && i < 8; ++i)
+      if (!eight->boxes.is_empty(i))
+        parts.push_back(
+            make_cell(source_, place().face, place().sub, *eight->patch[i], eight->parts[i], eight->piece[i]));
+  }
+  return parts;
+}
+
+template <Scheme S>
+auto HierarchyCell<S>::split() const -> Cells {
+  Cells parts;
+  if (child_ >= 0) {
+    source_.hierarchy.open(child_, [&](std::int32_t child, const Box& box) {
+      parts.push_back(std::make_unique<HierarchyCell>(source_, child, box));
+    });
+  } else {
+    const typename CellSource<S>::Start start = source_.start(~child_);
+    parts.push_back(make_cell(source_, place().face, place().sub, start.patch, start.parts, Parts<S>::inner));
+  }
+  return parts;
+}
+
+}  // namespace shaolin

@@ -1,0 +1,68 @@
+#pragma once
+// Models and maps that queries with shapes are tested on.
+#include <functional>
+
+#include "intersect/affine.h"
+#include "schemes/errors.h"
+#include "tests/models.h"
+
+namespace shaolin {
+
+/// Small, and between them all that a surface can have: creases sharp and semi-sharp, darts, corners, boundaries,
+/// n-gons, valences two and nine, poles.
+inline std::vector<Model> shape_models() {
+  static const std::vector<std::string> names{"torus",
+                                              "cube_creases",
+                                              "dart",
+                                              "ngon_body",
+                                              "sail",
+                                              "saddle",
+                                              "tetrahedron",
+                                              "catmark_xord_boundary",
+                                              "catmark_chaikin0",
+                                              "catmark_cubes_semisharp",
+                                              "catmark_val2_interior",
+                                              "loop_cubes_semisharp",
+                                              "loop_saddle_edgecorner"};
+  std::vector<Model> models;
+  for (const Model& model : all_models())
+    if (std::find(names.begin(), names.end(), model.name) != names.end()) models.push_back(model);
+  models.push_back({"poles", "catmark", shaken(poles("catmark", 9), 0.2)});
+  models.push_back({"pillow", "loop", pillow()});
+  return models;
+}
+
+/// A scale of the axes, a shear, a turn and a shift.
+inline Affine random_affine(Random& random) {
+  Affine map = Affine::Identity();
+  map.linear() = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
+  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+  for (Eigen::Index i = 0; i < 3; ++i) shear(i, i) = std::exp2(random.uniform(-2, 2)) * (random.index(2) ? 1 : -1);
+  shear(0, 1) = random.uniform(-2, 2);
+  shear(2, 0) = random.uniform(-2, 2);
+  map.linear() *= shear;
+  map.translation() = 5 * random.point();
+  return map;
+}
+
+inline ControlMesh image_of(ControlMesh mesh, const Affine& map) {
+  for (Vec3& p : mesh.positions) p = map * p;
+  return mesh;
+}
+
+inline Eigen::Matrix3d random_axes(Random& random) {
+  const double angle = random.uniform(0, 6);
+  return Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix();
+}
+
+/// The message of the InputError that an act throws.
+inline std::string refusal_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace shaolin
