@@ -14,15 +14,35 @@ namespace shaolin {
 
 namespace {
 
-/// Rays that pass an outline at a distance within rounding, some 160 u of a length L, see the surface at angles up to
-/// sqrt(2 * 160 u L / R) for a radius of curvature R: 2e-7 for R = L, and this for R = L / 25. Where nothing is proven
-/// of a contact, smaller ones have no sign.
+/// Where nothing is known of the curvature: rays that pass an outline at a distance within rounding, some 160 u of a
+/// length L, see the surface at angles up to sqrt(2 * 160 u L / R) for a radius of curvature R: 2e-7 for R = L, and
+/// this for R = L / 25. Where nothing is proven of a contact, smaller ones have no sign.
 constexpr double grazing = 1e-6;
+
+/// Whether a ray goes on through the surface at a contact, and does not touch it to within rounding. At a cosine c and
+/// a normal curvature k along the ray it goes in by c^2 / (2 k) before it comes out again, 2 c / k farther on; or, on a
+/// flat face of extent s, by c s at most. Below 16 times the error the two ends of the way may not be told apart: one
+/// may be found and proven and the other not, or both be one contact. The rule is the same at both, for c and k are the
+/// same at both up to terms of third order; so they cancel, whichever way it decides.
+bool goes_through(const Contact& contact, const Derivatives& d, double cosine, const Vec3& direction) {
+  constexpr double depth = 16;
+  const Vec3& normal = contact.hit.sample.normal;
+  Eigen::Matrix2d metric;
+  metric << d.du.dot(d.du), d.du.dot(d.dv), d.du.dot(d.dv), d.dv.dot(d.dv);
+  const Eigen::Vector2d way = metric.inverse() * Eigen::Vector2d(d.du.dot(direction), d.dv.dot(direction));
+  const double curvature = std::abs(normal.dot(d.duu) * way.x() * way.x() + 2 * normal.dot(d.duv) * way.x() * way.y() +
+                                    normal.dot(d.dvv) * way.y() * way.y());
+  if (!std::isfinite(curvature)) return contact.is_proven || std::abs(cosine) > grazing;
+  const double extent = d.du.norm() + d.dv.norm();
+  return cosine * cosine > 2 * depth * contact.error * curvature && std::abs(cosine) * extent > depth * contact.error;
+}
 
 int sign(const Contact& contact, const Vec3& direction) {
   const double cosine = contact.hit.sample.normal.dot(direction);
-  if (!contact.is_proven && !(std::abs(cosine) > grazing)) return 0;
-  return cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
+  const auto& derivatives = contact.hit.sample.derivatives;
+  const bool counts = derivatives ? goes_through(contact, *derivatives, cosine, direction)
+                                  : contact.is_proven || std::abs(cosine) > grazing;
+  return !counts ? 0 : cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
 }
 
 bool share_vertex(const ControlMesh& mesh, int a, int b) {

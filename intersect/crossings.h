@@ -31,6 +31,7 @@ struct Contact {
   Hit hit;
   double distance;     ///< along the ray
   double uncertainty;  ///< by how much `distance` may be off
+  double error;        ///< by how much coordinates across the ray may be off
   bool is_proven;      ///< the only one of its parameter cell, where the surface is not tangent to the ray
 };
 

@@ -172,6 +172,7 @@ class ExactFinish {
     TreeTotals& totals_;
     std::optional<RayFrame> frame_;
     double error_ = 0;
+    int cells_ = 0;  ///< that solvers have looked at, where all hits are asked for
   };
 
   static const PolynomialPatch<S>& polynomial_of(const PatchNode<S>& patch) {
@@ -284,13 +285,14 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   Net cell;
   if (!project(polynomial_of(patch).net(), number, cell)) return;
   NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
-                                  approach_.counters);
+                                  approach_.counters, all ? cells_ : 0);
   solve(solver, cell, [&](PatchHit hit) {
     const SubDomain piece = Pieces<Polynomial>::domain(number);
     hit.at = piece(hit.at);
     hit.radius *= piece.scale.cwiseAbs().maxCoeff();
     take(patch, hit, patch.place().part(piece).level());
   });
+  cells_ = solver.cells();
 }
 
 /// A piece of a net in the ray's coordinates; false if a test of the planes finds it to one side, before the others are

@@ -205,7 +205,8 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
           hit.t = std::clamp(traversal.t(one.distance), ray.tmin, ray.tmax);
           hit.certificate.residual = distance_from_line(hit.sample.position, traversal.origin, traversal.direction);
           const double cosine = std::abs(hit.sample.normal.dot(traversal.direction));
-          contacts.push_back({hit, one.distance, contact_uncertainty(one.error, one.reach, cosine), one.is_proven});
+          const double uncertainty = contact_uncertainty(one.error, one.reach, cosine);
+          contacts.push_back({hit, one.distance, uncertainty, one.error, one.is_proven});
         }
         return false;
       });
