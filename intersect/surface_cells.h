@@ -36,7 +36,7 @@ struct CellSource {
       : guard(budget), hierarchy(bvh), totals(tree_totals), leaf(std::move(leaves)), start(std::move(starts)) {}
 };
 
-/// A Bezier patch, or a piece of one: its quarters are made for this query.
+/// A Bezier patch, or a piece of one: its parts are made for this query.
 template <class Bezier>
 class PolynomialCell final : public SurfaceCell {
  public:
@@ -56,21 +56,44 @@ class PolynomialCell final : public SurfaceCell {
   bool is_triangular() const override { return Bezier::DomainType::corner_count == 3; }
 
  private:
-  Cells split() const override {
-    Cells parts;
-    const std::array<Bezier, 4> quarters = net_.bezier<Bezier>().split();
-    constexpr FaceKind kind = Bezier::DomainType::corner_count == 3 ? FaceKind::triangle : FaceKind::quad;
-    for (std::size_t k = 0; k < quarters.size(); ++k) {
-      Place part = place();
-      part.domain = part.domain(child_domain<kind>(static_cast<int>(k)));
-      ++part.level;
-      parts.push_back(std::make_unique<PolynomialCell>(Net(quarters[k]), part));
-    }
-    return parts;
+  Cells split() const override;
+  std::unique_ptr<SurfaceCell> part(const Bezier& piece, const SubDomain& domain) const {
+    Place at = place();
+    at.domain = at.domain(domain);
+    at.level += at.domain.depth() - place().domain.depth();
+    return std::make_unique<PolynomialCell>(Net(piece), at);
   }
 
   Net net_;
 };
+
+/// A triangle into quarters. A rectangle into halves, across the longer of its sides: one that is collapsed to a curve
+/// would else have as many cells across the curve as along it, all at one place.
+template <class Bezier>
+auto PolynomialCell<Bezier>::split() const -> Cells {
+  Cells parts;
+  const Bezier patch = net_.bezier<Bezier>();
+  if constexpr (Bezier::DomainType::corner_count == 3) {
+    const auto quarters = patch.split();
+    for (std::size_t k = 0; k < quarters.size(); ++k)
+      parts.push_back(part(quarters[k], child_domain<FaceKind::triangle>(static_cast<int>(k))));
+  } else {
+    const auto longest = [&](const auto& pairs) {
+      double most = 0;
+      for (const auto& [from, to] : pairs) most = std::max(most, (patch.b[to] - patch.b[from]).squaredNorm());
+      return most;
+    };
+    const int axis = longest(Bezier::u_pairs) >= longest(Bezier::v_pairs) ? 0 : 1;
+    const auto halves = patch.halves(axis);
+    SubDomain half;
+    half.scale[axis] = 0.5;
+    for (std::size_t k = 0; k < halves.size(); ++k) {
+      half.origin[axis] = 0.5 * static_cast<double>(k);
+      parts.push_back(part(halves[k], half));
+    }
+  }
+  return parts;
+}
 
 template <class Bezier>
 double PolynomialCell<Bezier>::least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const {
@@ -103,7 +126,8 @@ class RefinedCell final : public SurfaceCell {
   }
   /// Only of the centre, which one split makes a corner. A finer place would take as many splits as it has bits.
   std::optional<CellSample> sample(const Parameter&) const override {
-    return CellSample{D::centre(), evaluate(patch_, D::centre(), false).position, {}};
+    if (!centre_) centre_ = evaluate(patch_, D::centre(), false).position;
+    return CellSample{D::centre(), *centre_, {}};
   }
   bool is_triangular() const override { return D::corner_count == 3; }
 
@@ -122,6 +146,7 @@ class RefinedCell final : public SurfaceCell {
 
   Patch<S> patch_;
   std::optional<FlatPart> flat_;
+  mutable std::optional<Vec3> centre_;  ///< once it was asked for
 };
 
 /// An irregular patch that is kept, with the parts that are.

@@ -204,6 +204,26 @@ TEST_CASE("Shapes that touch a surface along a line are told apart with few cell
   }
 }
 
+TEST_CASE("Shapes touch surfaces that are collapsed to a curve", "[intersect][overlaps]") {
+  ControlMesh thin = sheet("catmark", 3, 3);
+  for (Vec3& p : thin.positions) p = Vec3(p.x(), 0.2 * p.x() * p.x(), 0);
+  const Scene scene(thin, "catmark");
+  Random random(28);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 p = Vec3(1.5, 0.8, 0) + 2 * random.point();
+    const auto closest = scene.closest_point(p);
+    for (const double gap : {1e-3, 1e-6, 1e-9, -1e-9}) {
+      for (const Shape& shape : shapes_in_ball(p, closest->sample.position, gap, random)) {
+        const std::uint64_t before = scene.statistics().cells;
+        const bool overlaps = scene.overlaps(shape).has_value();
+        CAPTURE(i, gap, shape.index());
+        CHECK(overlaps == (gap < 0));
+        CHECK(scene.statistics().cells - before < 5000);
+      }
+    }
+  }
+}
+
 TEST_CASE("Thin shapes cross surfaces without holding a sample", "[intersect][overlaps]") {
   Random random(23);
   for (const Model& model : shape_models()) {

@@ -131,6 +131,23 @@ TEST_CASE("Against a plane, a moving sphere's contact is known", "[intersect][sp
   CHECK(scene.statistics().cells < 200000);
 }
 
+TEST_CASE("A moving sphere meets a surface that is collapsed to a curve", "[intersect][sphere_sweep]") {
+  ControlMesh thin = sheet("catmark", 3, 3);
+  for (Vec3& p : thin.positions) p = Vec3(p.x(), 0.2 * p.x() * p.x(), 0);
+  const Scene scene(thin, "catmark");
+  Random random(35);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 p = Vec3(1.5, 0.8, 0) + 2 * random.point();
+    const auto closest = scene.closest_point(p);
+    const std::uint64_t before = scene.statistics().cells;
+    const auto contact = scene.sweep({p, 0.01, 1.5 * (closest->sample.position - p)});
+    CAPTURE(i);
+    CHECK(scene.statistics().cells - before < 5000);
+    REQUIRE(contact);
+    CHECK(std::abs(scene.closest_point(contact->centre)->distance - 0.01) < 1e-12);
+  }
+}
+
 TEST_CASE("A sphere that meets the surface at its start does so at t = 0", "[intersect][sphere_sweep]") {
   const Scene scene(cube(), "catmark");
   for (const Vec3& displacement : {Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(-9, 0, 0)}) {
