@@ -15,7 +15,7 @@ namespace shaolin {
 namespace {
 
 /// A mesh, and how to make an object of it.
-struct Shape {
+struct Subject {
   std::string name;
   ControlMesh mesh;
   std::string scheme;
@@ -38,7 +38,7 @@ SceneOptions by_chords(Method method) {
 }
 
 /// Both kinds of faces, creases, poles and n-gons, a scheme without polynomials, and all methods that refine lazily.
-std::vector<Shape> shapes() {
+std::vector<Subject> subjects() {
   ControlMesh creased = shaken(poles("catmark", 7), 0.2);
   creased.sharp_edges = {{0, 2, 10}, {0, 6, 1.5}, {1, 3, 2.5}};
   ControlMesh loop = shaken(poles("loop", 9), 0.2);
@@ -87,15 +87,15 @@ std::size_t differences_under_load(const Scene& scene, const std::vector<Ray>& r
   return wrong;
 }
 
-/// Shares of what a shape holds without a budget; the last one is less than any tree.
+/// Shares of what a subject holds without a budget; the last one is less than any tree.
 std::vector<std::uint64_t> budgets(std::uint64_t all) { return {all * 2, all / 2, all / 8, 1}; }
 
 }  // namespace
 
 TEST_CASE("A memory budget changes no answer and is kept", "[intersect][budget]") {
-  for (const Shape& shape : shapes()) {
-    CAPTURE(shape.name, shape.scheme);
-    const Scene kept = shape.scene(nullptr);
+  for (const Subject& subject : subjects()) {
+    CAPTURE(subject.name, subject.scheme);
+    const Scene kept = subject.scene(nullptr);
     const std::uint64_t empty = kept.statistics().bytes;
     const std::vector<Ray> rays = random_rays(kept.bounds(), 100, 81);
     const Answers expected = ask(kept, rays);
@@ -105,7 +105,7 @@ TEST_CASE("A memory budget changes no answer and is kept", "[intersect][budget]"
     for (const std::uint64_t bytes : budgets(all.bytes - empty)) {
       CAPTURE(bytes);
       const auto budget = std::make_shared<PatchBudget>(bytes);
-      const Scene scene = shape.scene(budget);
+      const Scene scene = subject.scene(budget);
       const std::uint64_t before = scene.statistics().bytes;
       CHECK(differences(ask(scene, rays), expected) == 0);
       const Statistics work = scene.statistics();
@@ -124,9 +124,9 @@ TEST_CASE("A memory budget changes no answer and is kept", "[intersect][budget]"
 }
 
 TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
-  for (const Shape& shape : shapes()) {
-    CAPTURE(shape.name, shape.scheme);
-    const Scene kept = shape.scene(nullptr);
+  for (const Subject& subject : subjects()) {
+    CAPTURE(subject.name, subject.scheme);
+    const Scene kept = subject.scene(nullptr);
     const std::uint64_t empty = kept.statistics().bytes;
     const std::vector<Ray> rays = random_rays(kept.bounds(), 40, 82);
     const Answers expected = ask(kept, rays);
@@ -134,7 +134,7 @@ TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
       CAPTURE(bytes);
       const auto budget = std::make_shared<PatchBudget>(bytes);
       {
-        const Scene scene = shape.scene(budget);
+        const Scene scene = subject.scene(budget);
         const std::uint64_t before = scene.statistics().bytes;
         CHECK(differences_under_load(scene, rays, expected, 4) == 0);
         CHECK(budget->held() <= bytes);
@@ -151,17 +151,17 @@ TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
 TEST_CASE("Under load there is twice the budget at most, and what queries that are underway need",
           "[intersect][budget]") {
   constexpr std::size_t threads = 4;
-  const Shape shape = shapes()[1];
-  const std::vector<Ray> rays = random_rays(shape.scene(nullptr).bounds(), 500, 85);
+  const Subject subject = subjects()[1];
+  const std::vector<Ray> rays = random_rays(subject.scene(nullptr).bounds(), 500, 85);
   std::uint64_t most = 0;  // of one query
   for (const Ray& ray : rays) {
-    const Scene cold = shape.scene(nullptr);
+    const Scene cold = subject.scene(nullptr);
     const std::uint64_t empty = cold.statistics().bytes;
     cold.intersect(ray);
     most = std::max(most, cold.statistics().bytes - empty);
   }
   const auto budget = std::make_shared<PatchBudget>(most);
-  const Scene scene = shape.scene(budget);
+  const Scene scene = subject.scene(budget);
   std::vector<std::uint64_t> peaks(threads);
   std::vector<std::thread> running;
   for (std::uint64_t& peak : peaks)
@@ -179,21 +179,21 @@ TEST_CASE("Under load there is twice the budget at most, and what queries that a
 }
 
 TEST_CASE("Objects share a memory budget", "[intersect][budget]") {
-  const Shape shape = shapes()[1];
-  const Scene alone = shape.scene(nullptr);
+  const Subject subject = subjects()[1];
+  const Scene alone = subject.scene(nullptr);
   const std::uint64_t empty = alone.statistics().bytes;
   const std::vector<Ray> rays = random_rays(alone.bounds(), 300, 83);
   const Answers expected = ask(alone, rays);
   const std::uint64_t bytes = alone.statistics().bytes - empty;
 
   const auto budget = std::make_shared<PatchBudget>(bytes);  // enough for one
-  const Scene first = shape.scene(budget);
+  const Scene first = subject.scene(budget);
   const std::uint64_t tables = first.statistics().bytes;
   CHECK(differences(ask(first, rays), expected) == 0);
   CHECK(first.statistics().patches_evicted == 0);
   CHECK(budget->held() == bytes);
   {
-    const Scene second = shape.scene(budget);
+    const Scene second = subject.scene(budget);
     CHECK(differences(ask(second, rays), expected) == 0);
     CHECK(first.statistics().patches_evicted > 0);
     CHECK(budget->held() <= bytes);
@@ -205,8 +205,8 @@ TEST_CASE("Objects share a memory budget", "[intersect][budget]") {
 }
 
 TEST_CASE("Trees that rays come by stay before others", "[intersect][budget]") {
-  const Shape shape = shapes()[1];
-  const Scene alone = shape.scene(nullptr);
+  const Subject subject = subjects()[1];
+  const Scene alone = subject.scene(nullptr);
   const std::uint64_t empty = alone.statistics().bytes;
   const std::vector<Ray> rays = random_rays(alone.bounds(), 400, 84);
   const Ray& again = rays.front();
@@ -216,7 +216,7 @@ TEST_CASE("Trees that rays come by stay before others", "[intersect][budget]") {
   const std::uint64_t all = alone.statistics().bytes - empty;
 
   const auto budget = std::make_shared<PatchBudget>(std::max(2 * one, all / 2));
-  const Scene scene = shape.scene(budget);
+  const Scene scene = subject.scene(budget);
   scene.intersect(again);
   std::uint64_t made_again = 0;
   for (const Ray& ray : rays) {
