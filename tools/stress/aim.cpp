@@ -13,7 +13,7 @@ namespace {
 Aim aim_at_places(const Subject& subject, const std::vector<SurfaceParameter>& places, std::size_t first) {
   constexpr std::size_t most = 16;
   const LimitSample sample = subject.evaluate(places[first]);
-  Aim aim{places[first], sample.position, {sample.normal}, sample.derivatives};
+  Aim aim{places[first], sample.position, true, {sample.normal}, sample.derivatives};
   const std::size_t stride = 1 + places.size() / most;
   for (std::size_t i = stride; i < places.size(); i += stride) {
     const LimitSample other = subject.evaluate(places[(first + i) % places.size()]);
@@ -66,7 +66,7 @@ Aim aim_inside(const Subject& subject, Random& random) {
   SurfaceParameter at{face, sub, random.unit(), random.unit()};
   if (subject.surface().triangular() && at.u + at.v > 1) at.u = 1 - at.u, at.v = 1 - at.v;
   const LimitSample sample = subject.evaluate(at);
-  return {at, sample.position, {sample.normal}, sample.derivatives};
+  return {at, sample.position, false, {sample.normal}, sample.derivatives};
 }
 
 Aim aim_anywhere(const Subject& subject, Random& random) {
@@ -103,15 +103,17 @@ Vec3 direction_at(const Subject& subject, const Aim& aim, Random& random) {
   return std::abs(direction.norm() - 1) < 1e-9 ? direction : random.direction();
 }
 
-Probe probe_at(const Aim& aim, const Vec3& direction, double distance, Random& random) {
+Probe probe_at(const Subject& subject, const Aim& aim, const Vec3& direction, double distance, Random& random) {
   const double length =
       random.one_in(2) ? std::exp2(std::round(random.between(-6, 6))) : random.log_between(0x1p-6, 64);
   const Ray ray{aim.position - distance * direction, length * direction};
-  return {ray, Probe::Target{distance / length, aim.cosine(direction), aim.is_crossed(direction)}};
+  const double cosine = aim.cosine(direction);
+  return {ray, Probe::Target{distance / length, cosine, aim.is_crossed(direction)},
+          aim.is_shared && cosine < subject.grazing(ray)};
 }
 
 Probe probe_at(const Subject& subject, const Aim& aim, const Vec3& direction, Random& random) {
-  return probe_at(aim, direction, random.between(0.5, 3) * subject.diagonal(), random);
+  return probe_at(subject, aim, direction, random.between(0.5, 3) * subject.diagonal(), random);
 }
 
 Vec3 nudged(Vec3 point, Random& random) {

@@ -15,6 +15,7 @@ namespace shaolin::stress {
 struct Aim {
   SurfaceParameter at;  ///< in one of the faces
   Vec3 position;
+  bool is_shared = false;     ///< at a vertex or an edge
   std::vector<Vec3> normals;  ///< zero where a face has none; of at most 16 faces
   std::optional<Derivatives> derivatives = {};
 
@@ -34,6 +35,7 @@ struct Probe {
   };
   Ray ray;
   std::optional<Target> target = {};
+  bool closest_only = false;  ///< all hits are not asked for
 };
 
 Aim aim_at(const Subject& subject, const VertexSite& vertex, Random& random);
@@ -48,8 +50,9 @@ Aim aim_anywhere(const Subject& subject, Random& random);
 Vec3 direction_at(const Subject& subject, const Aim& aim, Random& random);
 
 /// A ray through the aim that starts `distance` before it, a length; the direction gets a length of 2^-6 to 2^6, a
-/// power of two in half of all cases.
-Probe probe_at(const Aim& aim, const Vec3& direction, double distance, Random& random);
+/// power of two in half of all cases. Flatter than Subject::grazing() through a vertex or an edge only the closest hit
+/// is asked for: along tangents at irregular vertices all hits may take seconds (docs/robustness.md).
+Probe probe_at(const Subject& subject, const Aim& aim, const Vec3& direction, double distance, Random& random);
 /// From half a diagonal to three diagonals before it.
 Probe probe_at(const Subject& subject, const Aim& aim, const Vec3& direction, Random& random);
 

@@ -44,6 +44,12 @@ void Check::fail(Fault fault, const Ray& ray, std::string detail) {
   tally_.fail({fault, family_, subject_.name(), subject_.variant(), std::move(detail), ray});
 }
 
+void Check::fail_at(double cosine, Fault fault, const Ray& ray, std::string detail) {
+  if (cosine >= subject_.grazing(ray)) return fail(fault, ray, std::move(detail));
+  tally_.undecided += !undecided_;
+  undecided_ = true;
+}
+
 double Check::slack(const Ray& ray, double cosine) const {
   constexpr double grazing = 1e-6;
   return 4 * subject_.rounding(ray) / std::max(cosine, grazing) / ray.direction.stableNorm();
@@ -61,11 +67,14 @@ std::string Check::unsound(const Ray& ray, const Hit& hit) {
     return "no such parameter: " + text(hit);
   const double length = hit.sample.normal.norm();
   if (!(length == 0 || std::abs(length - 1) < 1e-12)) return "its normal is not unit: " + text(hit);
-  const Vec3 position = subject_.evaluate(at).position;
-  const double error = std::max((position - (ray.origin + hit.t * ray.direction)).stableNorm(),
-                                (position - hit.sample.position).stableNorm());
-  if (!(error <= sound * subject_.rounding(ray)))
-    return "off the surface or the ray by " + exact(error) + ": " + text(hit) + ", surface there " + exact(position);
+  const Vec3 position = subject_.evaluate(at).position, direction = ray.direction.stableNormalized();
+  const Vec3 away = position - ray.origin - hit.t * ray.direction;
+  const double along = std::abs(away.dot(direction)), across = (away - away.dot(direction) * direction).stableNorm();
+  const double error = std::max(across, (position - hit.sample.position).stableNorm());
+  if (!(error <= sound * subject_.rounding(ray)) ||
+      !(along <= slack(ray, cosine_of(ray, hit)) * ray.direction.stableNorm()))
+    return "off the surface or the ray by " + exact(error) + ", along the ray by " + exact(along) + ": " + text(hit) +
+           ", surface there " + exact(position);
   tally_.worst_error = std::max(tally_.worst_error, error / unit_in_last_place(subject_.magnitude(ray)));
   return {};
 }
@@ -93,6 +102,7 @@ int Check::winding(const Ray& ray) {
 
 void Check::ray(const Probe& probe) {
   failed_ = {};
+  undecided_ = false;
   try {
     answers(probe);
   } catch (const InputError& error) {
@@ -112,6 +122,7 @@ void Check::answers(const Probe& probe) {
       fail(Fault::lost, ray,
            (closest ? "a farther one: " + text(*closest) : "no hit") + ", expected t " + exact(probe.target->t));
   }
+  if (probe.closest_only) return;
   Ray line = ray;
   line.tmin = -infinity;
   line.tmax = infinity;
@@ -121,8 +132,12 @@ void Check::answers(const Probe& probe) {
 }
 
 void Check::all(const Probe& probe, std::span<const Crossing> all) {
+  double flattest = 1;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (std::string fault = unsound(probe.ray, all[i].hit); !fault.empty()) fail(Fault::ghost, probe.ray, fault);
+    const double cosine = cosine_of(probe.ray, all[i].hit);
+    flattest = std::min(flattest, cosine);
+    if (std::string fault = unsound(probe.ray, all[i].hit); !fault.empty())
+      fail_at(cosine, Fault::ghost, probe.ray, fault);
     if (i > 0 && all[i].hit.t < all[i - 1].hit.t) fail(Fault::ghost, probe.ray, "out of order: " + text(all[i].hit));
   }
   if (probe.target && probe.target->is_exact) target(probe, all);
@@ -131,26 +146,21 @@ void Check::all(const Probe& probe, std::span<const Crossing> all) {
     const Hit &a = all[i - 1].hit, &b = all[i].hit;
     const double cosine = std::min(cosine_of(probe.ray, a), cosine_of(probe.ray, b));
     if (sense_of(all[i]) * sense_of(all[i - 1]) == 1 && b.t - a.t <= 2 * slack(probe.ray, cosine))
-      return fail(Fault::duplicate, probe.ray, "two at one place: " + text(a) + " and " + text(b));
+      return fail_at(flattest, Fault::duplicate, probe.ray, "two at one place: " + text(a) + " and " + text(b));
   }
   std::string senses = "entering and leaving do not cancel:";
   for (const Crossing& crossing : all)
-    senses += ' ' + std::to_string(sense_of(crossing)) + " at t " + exact(crossing.hit.t);
-  fail(Fault::lost, probe.ray, senses);
+    senses += ' ' + std::to_string(sense_of(crossing)) + " at t " + exact(crossing.hit.t) + " cosine " +
+              exact(cosine_of(probe.ray, crossing.hit)) + ',';
+  fail_at(std::min(flattest, probe.target ? probe.target->cosine : 1), Fault::lost, probe.ray, senses);
 }
 
 void Check::target(const Probe& probe, std::span<const Crossing> all) {
   const Probe::Target& target = *probe.target;
   const double near = slack(probe.ray, target.cosine);
-  std::size_t count = 0;
-  bool is_early = false;
-  for (const Crossing& crossing : all) {
-    count += std::abs(crossing.hit.t - target.t) <= near;
-    // Along a curve of contact one hit stands for all of it.
-    is_early |= cosine_of(probe.ray, crossing.hit) < steep && std::abs(crossing.hit.t - target.t) > near;
-  }
-  if (count == 0 && !(target.cosine < steep && is_early))
-    fail(Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
+  const auto count =
+      std::count_if(all.begin(), all.end(), [&](const Crossing& c) { return std::abs(c.hit.t - target.t) <= near; });
+  if (count == 0) fail_at(target.cosine, Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
   if (count > 1 && target.cosine > steep && target.is_crossed)
     fail(Fault::duplicate, probe.ray,
          std::to_string(count) + " hits at one place, expected one at t " + exact(target.t));

@@ -27,7 +27,9 @@ class Check {
   /// - every hit is sound, all of them are in order, and no query throws (else: ghost);
   /// - of a closed surface, entering and leaving along the whole line cancel (else: lost, or duplicate where two in
   ///   succession at one place go the same way).
-  /// At most one fault of each kind counts for a ray.
+  /// At most one fault of each kind counts for a ray. What all hits say of places where the ray grazes the surface at
+  /// less than Subject::grazing() counts as undecided: there one and the same double root may be found as two
+  /// crossings, as a touch or as something between.
   void ray(const Probe& probe);
 
   /// The sum of the senses of sound hits of a ray: the winding number of its origin, if the surface is closed.
@@ -39,6 +41,8 @@ class Check {
   bool hit(const Ray& ray, const Hit& hit);
 
   void fail(Fault fault, const Ray& ray, std::string detail);
+  /// The same where it is a matter of all hits at a cosine: below Subject::grazing() it counts as undecided.
+  void fail_at(double cosine, Fault fault, const Ray& ray, std::string detail);
 
   /// How far off, in t, a hit may be that the ray meets at a cosine: four times the bound of rounding (twice for the
   /// surface's place, twice for the ray's, see contact_uncertainty()) over the cosine. Where that is below 1e-6
@@ -56,6 +60,7 @@ class Check {
   std::string family_;
   Tally& tally_;
   std::array<bool, 3> failed_{};  ///< by the ray that is looked at
+  bool undecided_ = false;        ///< the same
 };
 
 /// One ray, t and position of a hit, with 17 digits.

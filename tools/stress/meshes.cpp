@@ -195,7 +195,7 @@ std::vector<StressModel> degenerate_models() {
 std::vector<StressModel> valence_models() {
   std::vector<StressModel> models;
   for (const bool quads : {true, false})
-    for (const int valence : {3, 4, 5, 6, 7, 12, 30, 100, 300}) {
+    for (const int valence : {3, 4, 5, 6, 7, 12, 30, 100}) {
       const std::string name = "valence_" + std::to_string(valence) + suffix_of(quads);
       models.push_back({name, poles(quads, valence), scheme_of(quads)});
     }

@@ -15,7 +15,7 @@ std::vector<StressModel> distant_spheres();
 /// Slivers, collapsed edges, duplicate points, needles and caps, all points collinear or equal, folded nets.
 std::vector<StressModel> degenerate_models();
 
-/// Closed bodies with two vertices of valence 3 to 300, and of interior valence 2.
+/// Closed bodies with two vertices of valence 3 to 100 and, in triangles, 1000; and vertices of interior valence 2.
 std::vector<StressModel> valence_models();
 
 /// A cube and an octahedron with loops and darts of each sharpness: 0.1, 3.5, 9.99, 10 and infinite.

@@ -51,14 +51,26 @@ Subjects rotated(const StressModel& model, const QueriesOf& queries) {
   return subjects;
 }
 
+/// The points of an instance round in the world's space, its rays meet it in its own: by an ulp of its shift a ray may
+/// miss an outline or a boundary. There only rays that cross the surface, inside of faces or of closed surfaces, cannot
+/// miss.
+Probe with_certain_target(const Subject& subject, const Aim& aim, Probe probe) {
+  constexpr double steep = 1e-2;
+  const Probe::Target& target = *probe.target;
+  const bool is_inside = !aim.is_shared || subject.is_closed();
+  if (subject.is_moved_instance() && !(target.is_crossed && target.cosine > steep && is_inside)) probe.target.reset();
+  return probe;
+}
+
 Probe near_probe(const Subject& subject, Random& random) {
   const Aim aim = aim_anywhere(subject, random);
-  return probe_at(subject, aim, direction_at(subject, aim, random), random);
+  return with_certain_target(subject, aim, probe_at(subject, aim, direction_at(subject, aim, random), random));
 }
 
 Probe far_probe(const Subject& subject, Random& random) {
   const Aim aim = aim_anywhere(subject, random);
-  return probe_at(aim, direction_at(subject, aim, random), 1e6 * subject.diagonal(), random);
+  const Vec3 direction = direction_at(subject, aim, random);
+  return with_certain_target(subject, aim, probe_at(subject, aim, direction, 1e6 * subject.diagonal(), random));
 }
 
 template <class Make>

@@ -23,6 +23,7 @@ std::vector<std::string> cells(const std::string& name, const Tally& tally) {
   const auto share = tally.uncertified_share();
   std::vector<std::string> result{name, std::to_string(tally.rays), std::to_string(tally.hits)};
   for (const std::size_t wrong : tally.wrong) result.push_back(std::to_string(wrong));
+  result.push_back(std::to_string(tally.undecided));
   result.push_back(rounded(tally.worst_error));
   result.push_back(share ? rounded(100 * *share) + " %" : "-");
   return result;
@@ -34,6 +35,7 @@ Json json_of(const Tally& tally) {
             {"lost", tally.count(Fault::lost)},
             {"ghosts", tally.count(Fault::ghost)},
             {"duplicates", tally.count(Fault::duplicate)},
+            {"undecided", tally.undecided},
             {"worst_error_ulp", tally.worst_error}};
   const auto share = tally.uncertified_share();
   json["uncertified_share"] = share ? Json(*share) : Json();
@@ -79,12 +81,13 @@ Json json_of(const Result& result, const RunOptions& options) {
 }
 
 void write_rows(const std::filesystem::path& file, const Result& result) {
-  CsvWriter csv(file, "family,model,rays,hits,lost,ghosts,duplicates,worst_error_ulp,uncertified_share,seconds");
+  CsvWriter csv(file,
+                "family,model,rays,hits,lost,ghosts,duplicates,undecided,worst_error_ulp,uncertified_share,seconds");
   for (const Row& row : result.rows) {
     csv.field(row.family).field(row.model);
     csv.field(static_cast<long long>(row.tally.rays)).field(static_cast<long long>(row.tally.hits));
     for (const std::size_t wrong : row.tally.wrong) csv.field(static_cast<long long>(wrong));
-    csv.field(row.tally.worst_error);
+    csv.field(static_cast<long long>(row.tally.undecided)).field(row.tally.worst_error);
     const auto share = row.tally.uncertified_share();
     if (share)
       csv.field(*share);
@@ -119,7 +122,7 @@ void write_failures(const std::filesystem::path& file, const Result& result) {
 
 TextTable table_of(const Result& result) {
   TextTable table;
-  table.header = {"family", "rays", "hits", "lost", "ghosts", "duplicates", "worst ulp", "uncertified"};
+  table.header = {"family", "rays", "hits", "lost", "ghosts", "duplicates", "undecided", "worst ulp", "uncertified"};
   for (const Row& row : result.by_family()) table.rows.push_back(cells(row.family, row.tally));
   table.rows.push_back(cells("all", result.total()));
   return table;

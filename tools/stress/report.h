@@ -8,8 +8,8 @@
 
 namespace shaolin::stress {
 
-/// One row per family and one for all: rays, hits, lost, ghosts, duplicates, the worst error in units of the last
-/// place, the uncertified share ("-" where hits do not say).
+/// One row per family and one for all: rays, hits, lost, ghosts, duplicates, undecided, the worst error in units of the
+/// last place, the uncertified share ("-" where hits do not say).
 TextTable table_of(const Result& result);
 
 /// The table, what makes the same run again, and the first failures of each row.

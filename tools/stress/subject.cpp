@@ -1,6 +1,7 @@
 #include "tools/stress/subject.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -43,13 +44,14 @@ Subject::Subject(const StressModel& model, const QueriesOf& queries_of, std::str
       sites_(scene_->surface()),
       control_box_(scene_->bounds()),
       normals_(map.linear().inverse().transpose()),
+      is_identity_(map.matrix() == Affine::Identity().matrix()),
       is_closed_(is_closed_surface(scene_->surface())) {
   for (const auto& [face, sub] : sites_.pieces)
     for (const auto& [u, v] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {0.3125, 0.3125}})
       box_.add(evaluate({face, sub, u, v}).position);
   const double size = sites_.pieces.empty() ? 0 : (box_.upper - box_.lower).stableNorm();
   diagonal_ = size > 0 ? size : std::max(box_.largest_coordinate() * 0x1p-20, std::numeric_limits<double>::min());
-  if (map_.matrix() != Affine::Identity().matrix()) {
+  if (!is_identity_) {
     condition_ = norm_of(map.linear()) * norm_of(map.linear().inverse());
     object_size_ = norm_of(map.linear()) * scene_->instances().front().object->bounds().largest_coordinate();
   }
@@ -57,7 +59,7 @@ Subject::Subject(const StressModel& model, const QueriesOf& queries_of, std::str
 
 LimitSample Subject::evaluate(const SurfaceParameter& at) const {
   LimitSample sample = *surface().evaluate(at);
-  if (map_.matrix() == Affine::Identity().matrix()) return sample;
+  if (is_identity_) return sample;
   sample.position = map_ * sample.position;
   sample.normal = (normals_ * sample.normal).stableNormalized();
   if (sample.derivatives)
@@ -72,6 +74,11 @@ double Subject::rounding(const Ray& ray) const {
                                    (control_box_.upper - ray.origin).cwiseAbs().maxCoeff());
   const double largest = std::max(control_box_.largest_coordinate(), object_size_);
   return unit_roundoff * (160 * largest + 64 * relative) * condition_;
+}
+
+double Subject::grazing(const Ray& ray) const {
+  constexpr double least = 1e-4;
+  return std::max(least, 16 * std::sqrt(rounding(ray) / diagonal_));
 }
 
 double Subject::magnitude(const Ray& ray) const {

@@ -39,6 +39,7 @@ class Subject {
 
   const std::string& name() const { return name_; }
   const std::string& variant() const { return variant_; }
+  bool is_moved_instance() const { return !is_identity_; }
   const RayQueries& queries() const { return queries_; }
   const LimitSurface& surface() const { return scene_->surface(); }
   const Sites& sites() const { return sites_; }
@@ -56,6 +57,10 @@ class Subject {
   /// coordinate relative to the ray's origin (u = 2^-53). Under a transform A it grows by the condition |A| |A^-1|, for
   /// the ray is rounded in the object's space.
   double rounding(const Ray& ray) const;
+  /// The cosine at which a ray goes 16 times the bound of rounding deep into a surface before it comes out again, for a
+  /// radius of curvature of an eighth of the diagonal: sqrt(2 * 16 * rounding * 8 / diagonal); at least 1e-4, from
+  /// where on contact_uncertainty() takes a surface to turn away.
+  double grazing(const Ray& ray) const;
   /// The largest coordinate of the control points and of the ray's origin.
   double magnitude(const Ray& ray) const;
 
@@ -68,7 +73,7 @@ class Subject {
   Box box_, control_box_;
   Eigen::Matrix3d normals_;  ///< the inverse transpose of the map
   double diagonal_ = 1, condition_ = 1, object_size_ = 0;
-  bool is_closed_ = false;
+  bool is_identity_ = true, is_closed_ = false;
 };
 
 }  // namespace shaolin::stress

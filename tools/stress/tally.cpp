@@ -21,6 +21,7 @@ void Tally::add(const Tally& other) {
   rays += other.rays;
   hits += other.hits;
   for (std::size_t i = 0; i < wrong.size(); ++i) wrong[i] += other.wrong[i];
+  undecided += other.undecided;
   certified += other.certified;
   uncertified += other.uncertified;
   worst_error = std::max(worst_error, other.worst_error);

@@ -33,6 +33,7 @@ struct Tally {
   std::size_t rays = 0;
   std::size_t hits = 0;                ///< closest hits
   std::array<std::size_t, 3> wrong{};  ///< rays with such a fault, in the order of `faults`
+  std::size_t undecided = 0;           ///< rays of which all hits do not add up, but graze: see check.h
   std::size_t certified = 0;           ///< hits that carry a certificate
   std::size_t uncertified = 0;         ///< hits that say that they have none; 0, too, where hits do not say
   double worst_error = 0;              ///< of positions, in units of the last place of the coordinates, see check.h
