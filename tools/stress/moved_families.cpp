@@ -55,9 +55,11 @@ Subjects rotated(const StressModel& model, const QueriesOf& queries) {
 /// miss an outline or a boundary. There only rays that cross the surface, inside of faces or of closed surfaces, cannot
 /// miss.
 Probe with_certain_target(const Subject& subject, const Aim& aim, Probe probe) {
-  constexpr double steep = 1e-2;
+  constexpr double steep = 1e-2, shared = 0.1;
   const Probe::Target& target = *probe.target;
   const bool is_inside = !aim.is_shared || subject.is_closed();
+  // Far from the origin errors are large against pieces at irregular vertices, and contacts without number.
+  probe.closest_only |= aim.is_shared && target.cosine < shared;
   if (subject.is_moved_instance() && !(target.is_crossed && target.cosine > steep && is_inside)) probe.target.reset();
   return probe;
 }
