@@ -21,7 +21,7 @@ namespace {
 
 /// From around the box to points in it.
 std::vector<Ray> random_rays(const Box& box, std::size_t count) {
-  Random random(1);
+  SampleRandom random(1);
   const double diagonal = (box.upper - box.lower).norm();
   std::vector<Ray> rays(count);
   for (Ray& ray : rays) {
@@ -66,7 +66,7 @@ void print(const std::string& file, std::size_t count, int runs) {
 }  // namespace shaolin
 
 int main(int argc, char** argv) {
-  CLI::App app("Random rays one by one and as a stream: median times, and the ratio's median, least and most",
+  CLI::App app("SampleRandom rays one by one and as a stream: median times, and the ratio's median, least and most",
                "shaolin_bench_streams");
   std::vector<std::string> files;
   std::size_t rays = 200000;

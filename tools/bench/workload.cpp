@@ -64,7 +64,7 @@ Workload make_workload(const Scene& exact, const View& view, const Look& look) {
 void add_random_and_ambient_rays(const Scene& exact, Workload& work) {
   const Box box = exact.bounds();
   const double diagonal = (box.upper - box.lower).norm();
-  Random random(seed);
+  SampleRandom random(seed);
   for (const Ray& primary : work.primary) {
     Ray ray;
     ray.origin = box.centre() + diagonal * random.direction();

@@ -17,6 +17,7 @@
 #include "tools/cli/query.h"
 #include "tools/cli/render.h"
 #include "tools/cli/scheme.h"
+#include "tools/cli/stress.h"
 #include "tools/cli/sweep.h"
 #include "tools/cli/unfinished_files.h"
 #include "tools/cli/validate.h"
@@ -63,6 +64,7 @@ int parse_and_run(int argc, char** argv) {
   add_eval(app, command);
   add_info(app, command);
   add_validate(app, command);
+  add_stress(app, command);
   add_scheme(app, command);
   add_peers(app, command);
   add_bench(app, command);

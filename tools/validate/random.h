@@ -10,9 +10,9 @@
 
 namespace shaolin {
 
-class Random {
+class SampleRandom {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit SampleRandom(std::uint64_t seed) : engine_(seed) {}
 
   /// In [0, 1), in steps of 2^-53.
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }

@@ -21,7 +21,7 @@ std::vector<Piece> pieces_of(const SampledSurface& surface) {
   return pieces;
 }
 
-SurfaceParameter random_parameter(const Piece& piece, bool triangular, Random& random) {
+SurfaceParameter random_parameter(const Piece& piece, bool triangular, SampleRandom& random) {
   SurfaceParameter at{piece.face, piece.sub, random.unit(), random.unit()};
   if (triangular && at.u + at.v > 1) at.u = 1 - at.u, at.v = 1 - at.v;
   return at;
@@ -29,7 +29,7 @@ SurfaceParameter random_parameter(const Piece& piece, bool triangular, Random& r
 
 /// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it. Only the
 /// origin has parameters that are closer to it than a rounding of 1 and yet in the triangle.
-SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, Random& random) {
+SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, SampleRandom& random) {
   SurfaceParameter at{piece.face, piece.sub, 0, 0};
   if (triangular) {
     // Barycentric: 1 - distance for the corner, the rest shared.
@@ -55,7 +55,7 @@ SurfaceParameter near_corner(const Piece& piece, bool triangular, double distanc
   return at;
 }
 
-SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, Random& random) {
+SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, SampleRandom& random) {
   const double distance = random.log_between(1e-8, 1), along = random.unit();
   switch (random.index(16)) {
     case 0:
@@ -91,12 +91,12 @@ Surroundings surroundings_of(const SampledSurface& surface, const std::vector<Pi
   return {lower, upper, (upper - lower).norm()};
 }
 
-ProbeRay camera_ray(const Surroundings& model, Random& random) {
+ProbeRay camera_ray(const Surroundings& model, SampleRandom& random) {
   const Vec3 eye = model.centre() + random.between(0.7, 3) * model.diagonal * random.direction();
   return {RayKind::camera, {eye, random.inside(model.lower, model.upper) - eye}, {}};
 }
 
-ProbeRay incoherent_ray(const Surroundings& model, Random& random) {
+ProbeRay incoherent_ray(const Surroundings& model, SampleRandom& random) {
   const Vec3 margin = 0.25 * (model.upper - model.lower) + Vec3::Constant(0.05 * model.diagonal);
   Ray ray{random.inside(model.lower - margin, model.upper + margin), random.direction()};
   if (random.one_in(4)) {
@@ -113,7 +113,8 @@ ProbeRay ray_through(RayKind kind, const SampledSurface& surface, const SurfaceP
   return {kind, {sample.position - distance * direction, distance * direction}, 1.0, crosses};
 }
 
-ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, Random& random) {
+ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model,
+                     SampleRandom& random) {
   const SurfaceParameter at = random_parameter(piece, surface.triangular, random);
   const LimitSample sample = *surface.evaluate(at);
   const Vec3 tangent = sample.normal.cross(random.direction()).normalized();
@@ -124,7 +125,7 @@ ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Su
   return ray_through(RayKind::grazing, surface, at, sample, usable, random.log_between(1e-2, 3) * model.diagonal);
 }
 
-ProbeRay aimed_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, Random& random) {
+ProbeRay aimed_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, SampleRandom& random) {
   const bool at_corner = random.one_in(2);
   const double side = surface.triangular && random.one_in(2) ? 1 : 0;
   const SurfaceParameter at = near_corner(piece, surface.triangular, at_corner ? 0 : random.unit(), side, random);
@@ -156,7 +157,7 @@ std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_
   const std::vector<Piece> pieces = pieces_of(SampledSurface::of(oracle));
   std::vector<SurfaceParameter> parameters;
   if (pieces.empty()) return parameters;
-  Random random(seed);
+  SampleRandom random(seed);
   for (std::size_t i = 0; i < count; ++i) {
     const Piece& piece = pieces[random.index(pieces.size())];
     parameters.push_back(i % 4 == 3 ? crowding_parameter(piece, oracle.triangular(), random)
@@ -184,7 +185,7 @@ std::vector<ProbeRay> sample_rays(const SampledSurface& surface, std::size_t cou
   std::vector<ProbeRay> rays;
   if (pieces.empty()) return rays;
   const Surroundings model = surroundings_of(surface, pieces);
-  Random random(seed);
+  SampleRandom random(seed);
   for (std::size_t i = 0; i < count + count / 10; ++i) {
     const RayKind kind = i < count ? ray_kinds[i % 3] : RayKind::aimed;
     const Piece& piece = pieces[random.index(pieces.size())];

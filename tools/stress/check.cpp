@@ -1,0 +1,180 @@
+#include "tools/stress/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "schemes/errors.h"
+#include "tools/validate/agreement.h"
+
+namespace shaolin::stress {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A hit may be off by so many of Subject::rounding(). The exact finish accepts points within twice its bound across
+/// the ray in two coordinates, takes cells for points that reach 16 times as far along it, whose middle may be off by
+/// 8, and its own evaluation, ours and the ray's point at t are off by one each: sqrt(4 + 4 + 64) + 3 < 12.
+constexpr double sound = 12;
+
+/// Below this cosine (6 degrees) a ray may cross a curved surface twice near one place.
+constexpr double steep = 0.1;
+
+double unit_in_last_place(double magnitude) { return std::nextafter(magnitude, infinity) - magnitude; }
+
+double cosine_of(const Ray& ray, const Hit& hit) {
+  return std::abs(hit.sample.normal.dot(ray.direction.stableNormalized()));
+}
+
+int sense_of(const Crossing& crossing) { return static_cast<int>(crossing.sense); }
+
+}  // namespace
+
+std::string text(const Hit& hit) {
+  return "t " + exact(hit.t) + " at " + exact(hit.at) + " position " + exact(hit.sample.position) + " normal " +
+         exact(hit.sample.normal);
+}
+
+void Check::fail(Fault fault, const Ray& ray, std::string detail) {
+  bool& failed = failed_[static_cast<std::size_t>(fault)];
+  if (failed) return;
+  failed = true;
+  tally_.fail({fault, family_, subject_.name(), subject_.variant(), std::move(detail), ray});
+}
+
+void Check::fail_at(double cosine, Fault fault, const Ray& ray, std::string detail) {
+  if (cosine >= subject_.grazing(ray)) return fail(fault, ray, std::move(detail));
+  tally_.undecided += !undecided_;
+  undecided_ = true;
+}
+
+double Check::slack(const Ray& ray, double cosine) const {
+  constexpr double grazing = 1e-6;
+  return 4 * subject_.rounding(ray) / std::max(cosine, grazing) / ray.direction.stableNorm();
+}
+
+/// What is wrong with a hit, or an empty string; its error is noted.
+std::string Check::unsound(const Ray& ray, const Hit& hit) {
+  const LimitSurface& surface = subject_.surface();
+  const SurfaceParameter& at = hit.at;
+  if (!(hit.t >= ray.tmin && hit.t <= ray.tmax)) return "outside of the interval: " + text(hit);
+  if (at.face < 0 || at.face >= surface.face_count() || !surface.has_limit(at.face) || at.sub < 0 ||
+      at.sub >= surface.sub_count(at.face))
+    return "no such face: " + text(hit);
+  if (!(at.u >= 0 && at.v >= 0 && at.u <= 1 && at.v <= 1 && (!surface.triangular() || at.u + at.v <= 1)))
+    return "no such parameter: " + text(hit);
+  const double length = hit.sample.normal.norm();
+  if (!(length == 0 || std::abs(length - 1) < 1e-12)) return "its normal is not unit: " + text(hit);
+  const Vec3 position = subject_.evaluate(at).position, direction = ray.direction.stableNormalized();
+  const Vec3 away = position - ray.origin - hit.t * ray.direction;
+  const double along = std::abs(away.dot(direction)), across = (away - away.dot(direction) * direction).stableNorm();
+  const double error = std::max(across, (position - hit.sample.position).stableNorm());
+  if (!(error <= sound * subject_.rounding(ray)) ||
+      !(along <= slack(ray, cosine_of(ray, hit)) * ray.direction.stableNorm()))
+    return "off the surface or the ray by " + exact(error) + ", along the ray by " + exact(along) + ": " + text(hit) +
+           ", surface there " + exact(position);
+  tally_.worst_error = std::max(tally_.worst_error, error / unit_in_last_place(subject_.magnitude(ray)));
+  return {};
+}
+
+bool Check::hit(const Ray& ray, const Hit& hit) {
+  ++tally_.hits;
+  ++(hit.certificate.is_certified() ? tally_.certified : tally_.uncertified);
+  std::string fault = unsound(ray, hit);
+  if (!fault.empty()) fail(Fault::ghost, ray, std::move(fault));
+  return !failed_[static_cast<std::size_t>(Fault::ghost)];
+}
+
+int Check::winding(std::span<const Crossing> all) {
+  int sum = 0;
+  for (const Crossing& crossing : all) sum += sense_of(crossing);
+  return sum;
+}
+
+int Check::winding(const Ray& ray) {
+  const std::vector<Crossing> all = subject_.queries().all_hits(ray);
+  for (const Crossing& crossing : all)
+    if (std::string fault = unsound(ray, crossing.hit); !fault.empty()) fail(Fault::ghost, ray, std::move(fault));
+  return winding(all);
+}
+
+void Check::ray(const Probe& probe) {
+  failed_ = {};
+  undecided_ = false;
+  try {
+    answers(probe);
+  } catch (const InputError& error) {
+    fail(Fault::ghost, probe.ray, std::string("no answer: ") + error.what());
+  }
+}
+
+void Check::answers(const Probe& probe) {
+  const Ray& ray = probe.ray;
+  const std::optional<Hit> closest = subject_.queries().intersect(ray);
+  if (closest) hit(ray, *closest);
+  if (subject_.queries().occluded(ray) != closest.has_value())
+    fail(Fault::lost, ray, closest ? "occluded() is false, " + text(*closest) : "occluded() is true, there is no hit");
+  if (probe.target) {
+    const double latest = probe.target->t + slack(ray, probe.target->cosine);
+    if (!closest || closest->t > latest)
+      fail(Fault::lost, ray,
+           (closest ? "a farther one: " + text(*closest) : "no hit") + ", expected t " + exact(probe.target->t));
+  }
+  if (probe.closest_only) return;
+  Ray line = ray;
+  line.tmin = -infinity;
+  line.tmax = infinity;
+  const std::vector<Crossing> found = subject_.queries().all_hits(line);
+  all({line, probe.target}, found);
+  first(ray, closest, found);
+}
+
+void Check::all(const Probe& probe, std::span<const Crossing> all) {
+  double flattest = 1;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double cosine = cosine_of(probe.ray, all[i].hit);
+    flattest = std::min(flattest, cosine);
+    if (std::string fault = unsound(probe.ray, all[i].hit); !fault.empty())
+      fail_at(cosine, Fault::ghost, probe.ray, fault);
+    if (i > 0 && all[i].hit.t < all[i - 1].hit.t) fail(Fault::ghost, probe.ray, "out of order: " + text(all[i].hit));
+  }
+  if (probe.target && probe.target->is_exact) target(probe, all);
+  if (!subject_.is_closed() || winding(all) == 0) return;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const Hit &a = all[i - 1].hit, &b = all[i].hit;
+    const double cosine = std::min(cosine_of(probe.ray, a), cosine_of(probe.ray, b));
+    if (sense_of(all[i]) * sense_of(all[i - 1]) == 1 && b.t - a.t <= 2 * slack(probe.ray, cosine))
+      return fail_at(flattest, Fault::duplicate, probe.ray, "two at one place: " + text(a) + " and " + text(b));
+  }
+  std::string senses = "entering and leaving do not cancel:";
+  for (const Crossing& crossing : all)
+    senses += ' ' + std::to_string(sense_of(crossing)) + " at t " + exact(crossing.hit.t) + " cosine " +
+              exact(cosine_of(probe.ray, crossing.hit)) + ',';
+  fail_at(std::min(flattest, probe.target ? probe.target->cosine : 1), Fault::lost, probe.ray, senses);
+}
+
+void Check::target(const Probe& probe, std::span<const Crossing> all) {
+  const Probe::Target& target = *probe.target;
+  const double near = slack(probe.ray, target.cosine);
+  const auto count =
+      std::count_if(all.begin(), all.end(), [&](const Crossing& c) { return std::abs(c.hit.t - target.t) <= near; });
+  if (count == 0) fail_at(target.cosine, Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
+  if (count > 1 && target.cosine > steep && target.is_crossed)
+    fail(Fault::duplicate, probe.ray,
+         std::to_string(count) + " hits at one place, expected one at t " + exact(target.t));
+}
+
+/// The closest hit is the first of all that are ahead; at the interval's beginning rounding decides.
+void Check::first(const Ray& ray, const std::optional<Hit>& hit, std::span<const Crossing> all) {
+  const auto ahead = std::find_if(all.begin(), all.end(), [&](const Crossing& c) {
+    return c.hit.t >= ray.tmin + slack(ray, cosine_of(ray, c.hit)) && c.hit.t <= ray.tmax;
+  });
+  if (ahead == all.end()) return;
+  const double latest = ahead->hit.t + slack(ray, cosine_of(ray, ahead->hit));
+  if (!hit || hit->t > latest)
+    fail(Fault::lost, ray,
+         "of all hits the first is " + text(ahead->hit) + ", the closest " + (hit ? text(*hit) : "none"));
+}
+
+}  // namespace shaolin::stress

@@ -1,0 +1,43 @@
+#include "tools/stress/tally.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shaolin::stress {
+
+const char* name_of(Fault fault) {
+  switch (fault) {
+    case Fault::lost:
+      return "lost";
+    case Fault::ghost:
+      return "ghost";
+    case Fault::duplicate:
+      break;
+  }
+  return "duplicate";
+}
+
+void Tally::add(const Tally& other) {
+  rays += other.rays;
+  hits += other.hits;
+  for (std::size_t i = 0; i < wrong.size(); ++i) wrong[i] += other.wrong[i];
+  undecided += other.undecided;
+  certified += other.certified;
+  uncertified += other.uncertified;
+  worst_error = std::max(worst_error, other.worst_error);
+  const std::size_t room = most_failures - std::min(most_failures, failures.size());
+  const auto end = other.failures.begin() + static_cast<std::ptrdiff_t>(std::min(room, other.failures.size()));
+  failures.insert(failures.end(), other.failures.begin(), end);
+}
+
+void Tally::fail(Failure failure) {
+  ++wrong[static_cast<std::size_t>(failure.fault)];
+  if (failures.size() < most_failures) failures.push_back(std::move(failure));
+}
+
+std::optional<double> Tally::uncertified_share() const {
+  if (certified + uncertified == 0) return {};
+  return static_cast<double>(uncertified) / static_cast<double>(certified + uncertified);
+}
+
+}  // namespace shaolin::stress
