@@ -72,8 +72,8 @@ int main() {
   using shaolin::Method;
   int wrong = 0;
   for (const Method method : {Method::exact, Method::chord, Method::a3, Method::uniform}) {
-    wrong += race(method, false, 3);
-    if (method != Method::uniform) wrong += race(method, true, 3);
+    wrong += shaolin::race(method, false, 3);
+    if (method != Method::uniform) wrong += shaolin::race(method, true, 3);
   }
   std::printf("%d wrong answers\n", wrong);
   return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

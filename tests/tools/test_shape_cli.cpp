@@ -103,7 +103,7 @@ TEST_CASE("sweep gives the time and the place of the first contact", "[tools][cl
   REQUIRE(rows.size() == 4);
   CHECK(joined(rows[0]) == "sphere,hit,t," + place + ",cx,cy,cz");
   check_numbers(rows[1], {0, 1, 0.5, 0, 0, 0.625, 0.75, 0.25, 0.5, 1, 0, 0, 1, 0.25, 0.5, 2});
-  CHECK(joined(rows[2]) == "1,0" + std::string(14, ','));
+  CHECK(joined(rows[2]) == std::string("1,0").append(14, ','));
   CHECK(rows[3][2] == "0");
   REQUIRE(files.folder.run({"sweep", files.scene, "--sphere", "9,5,0,0,-4,0,1", "-o", files.out}).status == 0);
   const auto scene = read_rows(files.out);
