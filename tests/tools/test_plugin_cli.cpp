@@ -162,9 +162,12 @@ TEST_CASE("query, eval, info and render take a plug-in", "[tools][plugin]") {
 TEST_CASE("validate holds a plug-in against plain refinement by its masks", "[tools][plugin]") {
   const Folder folder;
   const auto validate = [&](const std::string& model, const std::string& plugin) {
-    return folder.run({"validate", model, "--plugin", example_plugin(plugin), "--evaluations", "40", "--rays", "40"});
+    return folder.run(
+        {"validate", model, "--plugin", example_plugin(plugin), "--evaluations", "40", "--rays", "40", "--seed", "2"});
   };
-  // Semi-sharp edges of uneven sharpness; a seam around two triangles that share all three sides.
+  // Seed 1 has a place on the seam 4e-6 from its end. There two sheets lie on each other and turn back in a fold, so
+  // that rounding chooses between the normals of both sides. Semi-sharp edges of uneven sharpness; a seam around two
+  // triangles that share all three sides.
   const std::string cube = folder.write(
       "cube.obj",
       "v -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 -1\nv 1 -1 -1\nf 1 2 4 3\nf 3 4 6 5\n"

@@ -180,15 +180,15 @@ TEST_CASE("query names the instance of a scene's hits", "[tools][cli][scenes]") 
   const std::vector<std::string> t{"5", "2.5", "4", "4"}, normal{"1", "1", "-1", "-1"};
   for (std::size_t i = 0; i < 4; ++i) {
     CAPTURE(i);
-    REQUIRE(table[i + 1].size() == 14);
+    REQUIRE(table[i + 1].size() == 17);
     CHECK(table[i + 1][2] == t[i]);
     CHECK(table[i + 1][11] == normal[i]);
-    CHECK(table[i + 1][13] == std::to_string(i));
+    CHECK(table[i + 1][16] == std::to_string(i));
   }
-  CHECK(table[5] == split("4,0,,,,,,,,,,,,", ','));
+  CHECK(table[5] == split("4,0,,,,,,,,,,,,,,,", ','));
 
   REQUIRE(folder.run({"query", scene, "--rays", rays, "-o", folder / "any.csv", "--any"}).status == 0);
-  CHECK(read_rows(folder / "any.csv")[1] == split("0,1,,,,,,,,,,,,", ','));
+  CHECK(read_rows(folder / "any.csv")[1] == split("0,1,,,,,,,,,,,,,,,", ','));
   REQUIRE(folder.run({"query", scene, "--rays", rays, "-o", folder / "out.csv", "--uniform", "2"}).status == 0);
   CHECK(read_rows(folder / "out.csv")[4].back() == "3");
 }
