@@ -37,11 +37,18 @@ bool goes_through(const Contact& contact, const Derivatives& d, double cosine, c
   return cosine * cosine > 2 * depth * contact.error * curvature && std::abs(cosine) * extent > depth * contact.error;
 }
 
+/// True within 1e-6 of a corner of the face, where patches may be all of one curvature and size, or of any.
+bool is_at_corner(const SurfaceParameter& at) {
+  const auto is_end = [](double x) { return x < 1e-6 || x > 1 - 1e-6; };
+  return is_end(at.u) && is_end(at.v);
+}
+
 int sign(const Contact& contact, const Vec3& direction) {
   const double cosine = contact.hit.sample.normal.dot(direction);
   const auto& derivatives = contact.hit.sample.derivatives;
-  const bool counts = derivatives ? goes_through(contact, *derivatives, cosine, direction)
-                                  : contact.is_proven || std::abs(cosine) > grazing;
+  const bool counts = derivatives && !is_at_corner(contact.hit.at)
+                          ? goes_through(contact, *derivatives, cosine, direction)
+                          : contact.is_proven || std::abs(cosine) > grazing;
   return !counts ? 0 : cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
 }
 
@@ -54,9 +61,8 @@ bool share_vertex(const ControlMesh& mesh, int a, int b) {
 /// The angle that a face takes around the ray at a contact: pi, but at a corner. There it is that between the sides, of
 /// which short chords will do, for the angles of all faces together are a multiple of 2 pi. (Tangents may be missing.)
 double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3& direction) {
-  constexpr double chord = 1e-3, near = 1e-6;
-  const auto is_end = [](double x) { return x < near || x > 1 - near; };
-  if (!is_end(at.u) || !is_end(at.v)) return std::numbers::pi;
+  constexpr double chord = 1e-3;
+  if (!is_at_corner(at)) return std::numbers::pi;
   const double u = std::round(at.u), v = std::round(at.v);
   SurfaceParameter a{at.face, at.sub, u == 0 ? chord : 1 - chord, v}, b{at.face, at.sub, u, v == 0 ? chord : 1 - chord};
   if (surface.triangular() && u == 1) b.u = 1 - chord;
@@ -73,6 +79,7 @@ double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3
 /// Of contacts at one place, in the order of (face, sub).
 Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
   std::vector<std::pair<const SurfaceParameter*, int>> faces;  // and the sign of each
+  bool is_mixed = false;  // some face has both
   for (std::size_t i = 0; i < contacts.size();) {
     const SurfaceParameter& at = contacts[i].hit.at;
     int least = 1, most = -1;
@@ -81,12 +88,15 @@ Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, c
       most = std::max(most, sign(contacts[i], direction));
     }
     faces.emplace_back(&at, std::clamp(least + most, -1, 1));
+    is_mixed |= least < 0 && most > 0;
   }
   const auto has_sign = [&](int wanted) {
     return std::any_of(faces.begin(), faces.end(), [&](const auto& face) { return face.second == wanted; });
   };
   double turns = has_sign(1) - has_sign(-1);
-  if (has_sign(1) && has_sign(-1)) {
+  // (At the tip of a spike a face has both, and another is met at its corner alone.)
+  if (is_mixed || (has_sign(1) && has_sign(-1))) {
+    turns = 0;
     for (const auto& [at, sign] : faces) turns += sign * angle(*at, surface, direction);
     turns = std::round(turns / (2 * std::numbers::pi));
   }

@@ -222,4 +222,30 @@ TEST_CASE("Only exact objects have all hits", "[intersect][all]") {
   CHECK_THROWS_AS(scene.count(Ray{{0, 0, 5}, Vec3::Zero(), 0, infinity}), InputError);
 }
 
+TEST_CASE("At the tip of a spike, seen as an outline, senses cancel", "[intersect][all]") {
+  // A sharp corner between smooth edges. Found by `shaolin stress`: of its faces one was met at the tip alone, with a
+  // sign, and the others around it, with both.
+  const Scene scene(read_obj(std::string(std::getenv("SHAOLIN_DATA")) + "/cube_creases.obj"), "catmark");
+  const std::vector<std::pair<Vec3, Vec3>> lines{{{-1, -1, 4.621778452723408}, {0, 0, -2}},
+                                                 {{2.0700779073747713, -4.7590796468376446, 7.1844668279761361},
+                                                  {-0.035470678755022293, 0.043431180116708344, -0.094560660150973558}},
+                                                 {{-2.379528317904863, -7.5995196650647481, 3.8134942428079919},
+                                                  {10.657730057900393, 50.985469590712604, -37.187291923820524}},
+                                                 {{-1.0203246205131735, -1.0027171952557719, -1.0382581092012679},
+                                                  {0.073010746105590357, 0.0097607949339024551, 0.13743199266934655}},
+                                                 {{-1.9699408822520359, 2.2704579101362499, -2.9561969300544235},
+                                                  {0.49331344539180955, -1.6633599935619414, 0.9949248094269636}},
+                                                 {{-6.2598727951290689, 7.0831810088100244, 1.0027281582024661},
+                                                  {0.53401788664903171, -0.82065924554747627, -0.20333051772016186}}};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const auto& [origin, direction] : lines) {
+    CAPTURE(origin.transpose());
+    int winding = 0;
+    for (const Crossing& crossing : scene.all_hits({origin, direction, -infinity, infinity}))
+      winding += static_cast<int>(crossing.sense);
+    CHECK(winding == 0);
+    CHECK(scene.count({origin, direction, -infinity, infinity}) % 2 == 0);
+  }
+}
+
 }  // namespace shaolin

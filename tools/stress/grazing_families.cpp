@@ -71,6 +71,7 @@ Probe silhouette_probe(const Subject& subject, SampleRandom& random) {
   const Section section(*aim.derivatives, aim.normals.front(), direction);
   const Vec3 inward = section.curvature > 0 ? aim.normals.front() : -aim.normals.front();
   const double depth = random.log_between(1e-12, 1e-6) / std::abs(section.curvature);
+  if (!(depth < subject.magnitude(probe.ray))) return probe;  // flat: no double root
   probe.ray.origin += depth * inward;
   probe.target.reset();
   const double back = 2 * std::sqrt(2 * depth / std::abs(section.curvature));
