@@ -35,7 +35,9 @@ class BadNumberStage final : public Stage {
     const Aim aim = aim_anywhere(*subject_, random);
     const Ray sound = probe_at(*subject_, aim, random.direction(), random).ray;
     if (random.one_in(16)) return spoil_mesh(sound, random, check);
-    const auto [ray, expected] = spoiled(sound, random);
+    const BadRay spoilt = spoiled(sound, random);
+    const Ray& ray = spoilt.ray;
+    const Expected expected = spoilt.expected;
     if (expected == Expected::sound) return check.ray({ray});
     const RayQueries& ask = subject_->queries();
     if (expected == Expected::miss) {
