@@ -237,7 +237,6 @@ TEST_CASE("At the tip of a spike, seen as an outline, senses cancel", "[intersec
                                                   {0.49331344539180955, -1.6633599935619414, 0.9949248094269636}},
                                                  {{-6.2598727951290689, 7.0831810088100244, 1.0027281582024661},
                                                   {0.53401788664903171, -0.82065924554747627, -0.20333051772016186}}};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const auto& [origin, direction] : lines) {
     CAPTURE(origin.transpose());
     int winding = 0;
