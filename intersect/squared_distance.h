@@ -80,6 +80,9 @@ SquaredDistance<Bezier>::Tables::Tables() {
 
 /// A coefficient is a mean of products of which each has four terms, below 2 (h^2 + |a| h) with h the largest |s|; its
 /// weights are good to 4 u, its terms to 4 u, and up to 64 are summed in rows of 16: 32 u in all.
+///
+/// Sums go from number to number, not by Four: the rows that are summed overlap, and GCC 12 at -O3 carries the wrong
+/// pairs over from one step to the next where they are pairs of an SSE2 register (-fpredictive-commoning).
 template <class Bezier>
 SquaredDistance<Bezier>::SquaredDistance(const Net& net, const Vec3& near)
     : along_u_(Vec3(Bezier::mean_du(net.x), Bezier::mean_du(net.y), Bezier::mean_du(net.z)).norm()),
@@ -97,15 +100,14 @@ SquaredDistance<Bezier>::SquaredDistance(const Net& net, const Vec3& near)
   for (std::size_t ja = 0; ja < rows; ++ja)
     for (std::size_t ia = 0; ia < length(ja); ++ia) {
       const std::size_t a = width * ja + ia;
-      const Four ax(x[a]), ay(y[a]), az(z[a]), a_along(along[a]);
-      for (std::size_t jb = 0; jb < rows; ++jb)
-        for (std::size_t ib = 0; ib < length(jb); ib += 4) {
-          const std::size_t b = width * jb + ib;
-          double* const to = &values_[stride * (ja + jb) + ia + ib];
-          const Four sum =
-              (ax * Four(&x[b]) + ay * Four(&y[b])) + (az * Four(&z[b]) + a_along * Four(&tables.binomials[b]));
-          (Four(to) + sum).store(to);
+      for (std::size_t jb = 0; jb < rows; ++jb) {
+        const std::size_t row = width * jb;
+        double* const to = &values_[stride * (ja + jb) + ia];
+        for (std::size_t ib = 0; ib < length(jb); ++ib) {
+          const std::size_t b = row + ib;
+          to[ib] += (x[a] * x[b] + y[a] * y[b]) + (z[a] * z[b] + along[a] * tables.binomials[b]);
         }
+      }
     }
   const double h = std::sqrt(farthest);
   error_ = 64 * unit_roundoff * (farthest + near.norm() * h);

@@ -2,8 +2,8 @@
 // Models and maps that queries with shapes are tested on.
 #include <functional>
 
-#include "intersect/affine.h"
 #include "schemes/errors.h"
+#include "tests/intersect/random_affine.h"
 #include "tests/models.h"
 
 namespace shaolin {
@@ -30,24 +30,6 @@ inline std::vector<Model> shape_models() {
   models.push_back({"poles", "catmark", shaken(poles("catmark", 9), 0.2)});
   models.push_back({"pillow", "loop", pillow()});
   return models;
-}
-
-/// A scale of the axes, a shear, a turn and a shift.
-inline Affine random_affine(Random& random) {
-  Affine map = Affine::Identity();
-  map.linear() = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
-  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
-  for (Eigen::Index i = 0; i < 3; ++i) shear(i, i) = std::exp2(random.uniform(-2, 2)) * (random.index(2) ? 1 : -1);
-  shear(0, 1) = random.uniform(-2, 2);
-  shear(2, 0) = random.uniform(-2, 2);
-  map.linear() *= shear;
-  map.translation() = 5 * random.point();
-  return map;
-}
-
-inline ControlMesh image_of(ControlMesh mesh, const Affine& map) {
-  for (Vec3& p : mesh.positions) p = map * p;
-  return mesh;
 }
 
 inline Eigen::Matrix3d random_axes(Random& random) {

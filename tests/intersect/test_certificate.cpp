@@ -5,6 +5,7 @@
 #include "schemes/bezier_quad.h"
 #include "tests/catch.h"
 #include "tests/intersect/aimed_rays.h"
+#include "tests/intersect/hand_made_patches.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/models.h"
 #include "tests/random.h"
@@ -21,15 +22,6 @@ std::vector<PatchHit> all_hits(const BezierQuad& patch) {
   std::vector<PatchHit> hits;
   NewtonFinish<BezierQuad>(error, 0, infinity, false, counters).solve(Net(patch), hits);
   return hits;
-}
-
-/// A patch of points place(u, v), which is exact for a place that is linear in u and in v.
-BezierQuad quad(const std::function<Vec3(double, double)>& place) {
-  BezierQuad patch;
-  for (std::size_t j = 0; j < 4; ++j)
-    for (std::size_t i = 0; i < 4; ++i)
-      patch.b[4 * j + i] = place(static_cast<double>(i) / 3, static_cast<double>(j) / 3);
-  return patch;
 }
 
 /// Folds along u = 1/2, the fold at x = -c: two zeros for c > 0, none below.

@@ -1,11 +1,15 @@
 // Closest points are those of brute force, of analytic surfaces and of every other way to say the same.
 #include <functional>
 
+#include "intersect/bvh.h"
+#include "intersect/nearest_finish.h"
 #include "intersect/scene.h"
 #include "schemes/errors.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
 #include "tests/intersect/dense_sampling.h"
+#include "tests/intersect/hand_made_patches.h"
+#include "tests/intersect/random_affine.h"
 #include "tests/models.h"
 #include "tests/plugins/plugin_files.h"
 
@@ -114,24 +118,6 @@ void check_against_brute_force(const Model& model, int count, int steps) {
   CHECK(differences.farther < 1e-12);
   CHECK(differences.inconsistent < 1e-13);
   CHECK(differences.oblique < 1e-5);
-}
-
-/// A scale of the axes, a shear, a turn and a shift.
-Affine random_map(Random& random) {
-  Affine map = Affine::Identity();
-  map.linear() = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
-  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
-  for (Eigen::Index i = 0; i < 3; ++i) shear(i, i) = std::exp2(random.uniform(-3, 3)) * (random.index(2) ? 1 : -1);
-  shear(0, 1) = random.uniform(-2, 2);
-  shear(2, 0) = random.uniform(-2, 2);
-  map.linear() *= shear;
-  map.translation() = 5 * random.point();
-  return map;
-}
-
-ControlMesh mapped(ControlMesh mesh, const Affine& map) {
-  for (Vec3& p : mesh.positions) p = map * p;
-  return mesh;
 }
 
 std::string message_of(const std::function<void()>& act) {
@@ -255,7 +241,7 @@ TEST_CASE("Distances from instances are those from the transformed control mesh"
         Model{"poles", "loop", shaken(poles("loop", 7), 0.2)}, Model{"fan", "loop", shaken(fan("loop", 4), 0.2)}}) {
     const auto object = make_object(model.mesh, model.scheme);
     for (int round = 0; round < 4; ++round) {
-      const Affine map = random_map(random);
+      const Affine map = random_affine(random, 3);
       const ControlMesh twin = mapped(model.mesh, map);
       const Scene scene({{object, map}}), expected(twin, model.scheme);
       const double size = twin.diagonal() + map.translation().norm();  // what coordinates round by
@@ -284,7 +270,7 @@ TEST_CASE("Among many instances the closest one to a point answers, with its ind
   std::vector<Instance> instances;
   std::vector<Scene> alone;
   for (int i = 0; i < 40; ++i) {
-    Affine map = random_map(random);
+    Affine map = random_affine(random, 3);
     map.translation() = 12 * random.point();
     instances.push_back({i % 2 ? one : other, map});
     alone.emplace_back(std::vector<Instance>{instances.back()});
@@ -403,6 +389,30 @@ TEST_CASE("Questions that have no answer are refused, or are empty", "[intersect
   ControlMesh hole = sheet("catmark", 1, 1);
   hole.holes = {0};
   CHECK(!Scene(hole, "catmark").closest_point({0, 0, 0}));
+}
+
+TEST_CASE("Coefficients of the squared distance bound it, where the search inlines them", "[intersect][closest]") {
+  // A flat bilinear patch, seen from a place of its own. Sums of overlapping rows by SSE2's pairs came out wrong at
+  // -O3, so that the patch was dropped for being too far; found by "Instruction sets give the same crossings".
+  const Vec3 a{0.01679671441634247, 1.0229008767573117e-15, -0.0030052259080615845},
+      b{0.02242171441634247, 1.0229008767573117e-15, 0.014494774091938415},
+      c{-0.0016407855836575308, 1.0229008767573117e-15, -0.0030052259080615845},
+      d{-0.0016407855836575308, 1.0229008767573117e-15, 0.022307274091938417};
+  const BezierQuad patch =
+      quad([&](double u, double v) { return Vec3((1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d)); });
+  Box box;
+  for (const Vec3& point : patch.b) box.add(point);
+  const Bvh hierarchy(std::vector<Box>{box});
+  const Placement here(Affine::Identity());
+  for (const double radius : {1e-6, 1.25e-4, 1e-3, 1.0}) {
+    RayCounters counters;
+    PointApproach approach({Vec3::Zero(), here, radius}, box, hierarchy.space(), counters);
+    Net relative;
+    approach.relative(Net(patch), relative);
+    NearestFinish<BezierQuad> finish(1e-16, approach);
+    CAPTURE(radius);
+    CHECK(finish.solve(relative));
+  }
 }
 
 }  // namespace shaolin

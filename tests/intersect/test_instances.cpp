@@ -5,6 +5,7 @@
 #include "schemes/errors.h"
 #include "schemes/limit_surface.h"
 #include "tests/catch.h"
+#include "tests/intersect/random_affine.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/meshes.h"
 
@@ -40,11 +41,6 @@ Affine random_map(Random& random, bool mirrored) {
   map.linear() = map.linear() * scale.asDiagonal() * shear;
   map.translation() = 5 * random.point();
   return map;
-}
-
-ControlMesh mapped(ControlMesh mesh, const Affine& map) {
-  for (Vec3& p : mesh.positions) p = map * p;
-  return mesh;
 }
 
 /// The largest differences between hits, relative to the size of what they are compared with.

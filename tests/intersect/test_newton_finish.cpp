@@ -7,6 +7,7 @@
 #include "schemes/bezier_quad.h"
 #include "schemes/bezier_triangle.h"
 #include "tests/catch.h"
+#include "tests/intersect/hand_made_patches.h"
 #include "tests/random.h"
 
 namespace shaolin {
@@ -30,14 +31,6 @@ std::optional<PatchHit> solve(const Bezier& patch, const Interval& interval = {}
   return finish.hit();
 }
 
-/// A patch of points place(u, v), which is exact for a place that is linear in u and in v.
-BezierQuad quad(const std::function<Vec3(double, double)>& place) {
-  BezierQuad patch;
-  for (std::size_t j = 0; j < 4; ++j)
-    for (std::size_t i = 0; i < 4; ++i)
-      patch.b[4 * j + i] = place(static_cast<double>(i) / 3, static_cast<double>(j) / 3);
-  return patch;
-}
 BezierTriangle triangle(const std::function<Vec3(double, double)>& place) {
   BezierTriangle patch;
   for (int j = 0; j <= 4; ++j)

@@ -83,8 +83,7 @@ void check_sweeps(const Model& model, int count) {
   CAPTURE(model.name, model.scheme, faults.hit, faults.started, most);
   CHECK(faults.early < 1e-12);
   CHECK(faults.off < 1e-12);
-  // Known fault: in an n-gon of a bilinear surface one contact's (u, v) is 1.7e-4 off its position (docs/README.md).
-  CHECK(faults.inconsistent < (model.scheme == "bilinear" ? 1e-3 : 1e-12));
+  CHECK(faults.inconsistent < 1e-12);
   CHECK(faults.missed == 0);
   CHECK(faults.hit > count / 4);
   CHECK(most < 40000);
@@ -173,7 +172,7 @@ TEST_CASE("An instance's first contact is that of the mapped mesh", "[intersect]
     for (int k = 0; k < 6; ++k) {
       const Affine map = random_affine(random), other = random_affine(random);
       const Scene both(std::vector<Instance>{{object, other}, {object, map}});
-      const Scene one(image_of(model.mesh, other), model.scheme), two(image_of(model.mesh, map), model.scheme);
+      const Scene one(mapped(model.mesh, other), model.scheme), two(mapped(model.mesh, map), model.scheme);
       const double diagonal = (both.bounds().upper - both.bounds().lower).norm();
       double differ = 0;
       int wrong = 0;

@@ -1,5 +1,6 @@
 #include "tools/cli/inside.h"
 
+#include <iostream>
 #include <memory>
 
 #include "tools/cli/row_query.h"
@@ -19,6 +20,8 @@ void inside_in_arena(const InsideOptions& options) {
         writer.field(static_cast<long long>(row)).field(std::signbit(distance) ? 1 : 0).field(distance).end_row();
       });
   writer.commit();
+  std::cerr << points.row_count() << " points, " << scene.statistics().uncertified
+            << " of them by hits that are not certified\n";
 }
 
 }  // namespace
