@@ -25,7 +25,7 @@ inline Affine random_affine(Random& random, double stretch = 2) {
   return map;
 }
 
-inline ControlMesh mapped(ControlMesh mesh, const Affine& map) {
+inline ControlMesh image_of(ControlMesh mesh, const Affine& map) {
   for (Vec3& p : mesh.positions) p = map * p;
   return mesh;
 }

@@ -242,7 +242,7 @@ TEST_CASE("Distances from instances are those from the transformed control mesh"
     const auto object = make_object(model.mesh, model.scheme);
     for (int round = 0; round < 4; ++round) {
       const Affine map = random_affine(random, 3);
-      const ControlMesh twin = mapped(model.mesh, map);
+      const ControlMesh twin = image_of(model.mesh, map);
       const Scene scene({{object, map}}), expected(twin, model.scheme);
       const double size = twin.diagonal() + map.translation().norm();  // what coordinates round by
       double worst = 0, normal = 0;

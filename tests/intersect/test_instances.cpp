@@ -88,7 +88,7 @@ TEST_CASE("An instance's hits are those of the transformed control mesh", "[inte
       CAPTURE(subject.name, round);
       const Affine map = random_map(random, mirrored);
       REQUIRE((map.linear().determinant() < 0) == mirrored);
-      const ControlMesh twin = mapped(subject.mesh, map);
+      const ControlMesh twin = image_of(subject.mesh, map);
       const Scene scene({{object, map}}), expected(twin, subject.scheme);
       Differences differences;
       int occluded_differs = 0;

@@ -262,7 +262,7 @@ TEST_CASE("An instance's overlaps are those of the mapped mesh", "[intersect][ov
     for (int k = 0; k < 6; ++k) {
       const Affine map = random_affine(random), far = Eigen::Translation3d(100, 0, 0) * map;
       const Scene instances(std::vector<Instance>{{object, far}, {object, map}});
-      const Scene mapped(mapped(model.mesh, map), model.scheme);
+      const Scene mapped(image_of(model.mesh, map), model.scheme);
       const double diagonal = (mapped.bounds().upper - mapped.bounds().lower).norm();
       int differ = 0;
       double outside = 0;
@@ -293,7 +293,7 @@ TEST_CASE("Overlaps far from the origin and at any scale", "[intersect][overlaps
       Affine map = Affine::Identity();
       map.linear() *= scale;
       map.translation() = Vec3(offset, -offset, offset) * scale;
-      const Scene scene(mapped(shaken(cube(), 0.2), map), "catmark");
+      const Scene scene(image_of(shaken(cube(), 0.2), map), "catmark");
       int wrong = 0;
       for (int i = 0; i < 20; ++i) {
         const Vec3 p = map * Vec3(2 * random.point());

@@ -141,7 +141,7 @@ TEST_CASE("Picks of instances are those of the mapped mesh", "[intersect][pick][
   for (int k = 0; k < 10; ++k) {
     const Affine one = random_affine(random), two = random_affine(random);
     const Scene both(std::vector<Instance>{{object, one}, {object, two}});
-    const Scene first(mapped(mesh, one), "catmark"), second(mapped(mesh, two), "catmark");
+    const Scene first(image_of(mesh, one), "catmark"), second(image_of(mesh, two), "catmark");
     for (int i = 0; i < 20; ++i) {
       const Vec3 at =
           both.bounds().centre() + 0.3 * (both.bounds().upper - both.bounds().lower).cwiseProduct(random.point());

@@ -172,7 +172,7 @@ TEST_CASE("An instance's first contact is that of the mapped mesh", "[intersect]
     for (int k = 0; k < 6; ++k) {
       const Affine map = random_affine(random), other = random_affine(random);
       const Scene both(std::vector<Instance>{{object, other}, {object, map}});
-      const Scene one(mapped(model.mesh, other), model.scheme), two(mapped(model.mesh, map), model.scheme);
+      const Scene one(image_of(model.mesh, other), model.scheme), two(image_of(model.mesh, map), model.scheme);
       const double diagonal = (both.bounds().upper - both.bounds().lower).norm();
       double differ = 0;
       int wrong = 0;
