@@ -37,10 +37,11 @@ const SceneOptions& checked(const SceneOptions& options) {
 }  // namespace
 
 std::shared_ptr<const Object> make_object(ControlMesh mesh, const std::string& scheme, const SceneOptions& options) {
+  [[maybe_unused]] const InstructionSet set = instruction_set();
   return with_scheme(scheme, [&](const auto& type) {
 #ifdef SHAOLIN_HAS_AVX2
     if constexpr (requires { avx2::make_object(std::move(mesh), type, options); })
-      if (instruction_set() == InstructionSet::avx2) return avx2::make_object(std::move(mesh), type, checked(options));
+      if (set == InstructionSet::avx2) return avx2::make_object(std::move(mesh), type, checked(options));
 #endif
     return make_scheme_object(std::move(mesh), type, checked(options));
   });
