@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double sound = 12;
 
 /// Below this cosine (6 degrees) a ray may cross a curved surface twice near one place.
-constexpr double steep = 0.1;
+constexpr double steep_enough = 0.1;
 
 double unit_in_last_place(double magnitude) { return std::nextafter(magnitude, infinity) - magnitude; }
 
@@ -160,7 +160,7 @@ void Check::target(const Probe& probe, std::span<const Crossing> all) {
   const auto count =
       std::count_if(all.begin(), all.end(), [&](const Crossing& c) { return std::abs(c.hit.t - target.t) <= near; });
   if (count == 0) fail_at(target.cosine, Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
-  if (count > 1 && target.cosine > steep && target.is_crossed)
+  if (count > 1 && target.cosine > steep_enough && target.is_crossed)
     fail(Fault::duplicate, probe.ray,
          std::to_string(count) + " hits at one place, expected one at t " + exact(target.t));
 }

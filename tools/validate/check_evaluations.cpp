@@ -44,9 +44,9 @@ std::string text(const Derivatives& d) {
          exact(d.dvv);
 }
 
-class Check {
+class EvaluationCheck {
  public:
-  Check(const Evaluator& ours, const Oracle& oracle) : ours_(ours), oracle_(oracle) {}
+  EvaluationCheck(const Evaluator& ours, const Oracle& oracle) : ours_(ours), oracle_(oracle) {}
 
   void face(int f);
   void parameter(const SurfaceParameter& at);
@@ -66,7 +66,7 @@ class Check {
   Collector positions_, normals_, undetermined_, derivatives_;
 };
 
-void Check::face(int f) {
+void EvaluationCheck::face(int f) {
   ++report_.faces;
   const SurfaceParameter centre{f, 0, 0.3125, 0.3125};
   const bool expected = oracle_.has_limit(f);
@@ -82,7 +82,7 @@ void Check::face(int f) {
   }
 }
 
-void Check::parameter(const SurfaceParameter& at) {
+void EvaluationCheck::parameter(const SurfaceParameter& at) {
   ++report_.evaluations;
   const std::optional<LimitSample> ours = ours_.evaluate(at), theirs = oracle_.evaluate(at);
   if (!ours || !theirs) {
@@ -96,7 +96,7 @@ void Check::parameter(const SurfaceParameter& at) {
   if (oracle_.has_derivatives()) derivatives(at, *ours, *theirs);
 }
 
-void Check::position(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
+void EvaluationCheck::position(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
   const double error = (ours.position - theirs.position).norm() / oracle_.diagonal();
   positions_.add(error, at);
   if (!(error <= bar::position_max)) {
@@ -105,7 +105,7 @@ void Check::position(const SurfaceParameter& at, const LimitSample& ours, const 
   }
 }
 
-void Check::normal(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
+void EvaluationCheck::normal(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
   const double error = angle_between_units(ours.normal, theirs.normal);
   if (!has_determined_normal(theirs)) {
     undetermined_.add(error, at);
@@ -122,7 +122,7 @@ void Check::normal(const SurfaceParameter& at, const LimitSample& ours, const Li
 
 /// The oracle gives no derivatives at any vertex that is irregular in the mesh; a single face of it may be a regular
 /// piece there all the same (a face between two creases). Then ours must be the limit of the oracle's.
-void Check::derivatives(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
+void EvaluationCheck::derivatives(const SurfaceParameter& at, const LimitSample& ours, const LimitSample& theirs) {
   if (!ours.derivatives && theirs.derivatives) disagree("derivatives", at, "ours has none, the oracle some", 1, 0);
   if (!ours.derivatives) return;
   const bool beside = !theirs.derivatives;
@@ -135,7 +135,7 @@ void Check::derivatives(const SurfaceParameter& at, const LimitSample& ours, con
   disagree("derivatives", at, "ours " + text(*ours.derivatives) + ", oracle " + text(expected), error, allowed);
 }
 
-EvaluationReport Check::report() const {
+EvaluationReport EvaluationCheck::report() const {
   EvaluationReport report = report_;
   report.positions = positions_.result();
   report.normals = normals_.result();
@@ -153,7 +153,7 @@ Evaluator Evaluator::of(const LimitSurface& surface) {
 
 EvaluationReport check_evaluations(const Evaluator& ours, const Oracle& oracle,
                                    std::span<const SurfaceParameter> parameters) {
-  Check check(ours, oracle);
+  EvaluationCheck check(ours, oracle);
   for (int f = 0; f < oracle.face_count(); ++f) check.face(f);
   for (const SurfaceParameter& at : parameters) check.parameter(at);
   return check.report();

@@ -41,9 +41,9 @@ std::string text(const Hit& hit) {
          exact(hit.sample.normal);
 }
 
-class Check {
+class RayCheck {
  public:
-  Check(const Oracle& oracle, const DenseCheck* dense) : oracle_(oracle), dense_(dense) {}
+  RayCheck(const Oracle& oracle, const DenseCheck* dense) : oracle_(oracle), dense_(dense) {}
 
   void ray(const ProbeRay& probe, const Answer& answer);
   const RayReport& report() const { return report_; }
@@ -74,7 +74,7 @@ class Check {
   RayReport report_;
 };
 
-void Check::ray(const ProbeRay& probe, const Answer& answer) {
+void RayCheck::ray(const ProbeRay& probe, const Answer& answer) {
   RayFigures& figures = report_.by_kind[static_cast<std::size_t>(probe.kind)];
   const Context context{probe.ray, figures, probe.ray.direction.norm()};
   ++figures.rays;
@@ -89,7 +89,7 @@ void Check::ray(const ProbeRay& probe, const Answer& answer) {
 }
 
 /// The reported place, by the oracle, must be on the ray where the hit says.
-void Check::hit(const Context& context, const Hit& hit) {
+void RayCheck::hit(const Context& context, const Hit& hit) {
   const Ray& ray = context.ray;
   const std::optional<LimitSample> expected = oracle_.evaluate(hit.at);
   const double reach = std::abs(hit.t) * context.speed + oracle_.diagonal();
@@ -115,7 +115,7 @@ void Check::hit(const Context& context, const Hit& hit) {
   context.figures.seen += closest(ray, hit.t - window, hit.t + window).has_value();
 }
 
-void Check::normal(const Context& context, const Hit& hit, const LimitSample& expected) {
+void RayCheck::normal(const Context& context, const Hit& hit, const LimitSample& expected) {
   if (!has_determined_normal(expected)) {
     ++context.figures.undetermined_normals;
     return;
@@ -128,7 +128,7 @@ void Check::normal(const Context& context, const Hit& hit, const LimitSample& ex
 }
 
 /// Looks for a hit before ours, or for any where we have none.
-void Check::nearer(const Context& context, const std::optional<Hit>& hit, const ProbeRay& probe) {
+void RayCheck::nearer(const Context& context, const std::optional<Hit>& hit, const ProbeRay& probe) {
   const Ray& ray = context.ray;
   const double slack = context.step(same_hit, oracle_.diagonal());
   const double end = hit ? hit->t - slack : ray.tmax;
@@ -147,7 +147,7 @@ void Check::nearer(const Context& context, const std::optional<Hit>& hit, const 
            (hit ? "ours " + text(*hit) : std::string("ours none")) + ", oracle t " + exact(*nearer), 1, 0);
 }
 
-bool Check::certain(const Ray& ray, double t) const {
+bool RayCheck::certain(const Ray& ray, double t) const {
   const double window = along * oracle_.diagonal() / ray.direction.norm();
   const Vec3 side = ray.direction.unitOrthogonal(), other = ray.direction.cross(side).normalized();
   for (int k = 0; k < 8; ++k) {
@@ -189,7 +189,7 @@ Intersector Intersector::of(const Scene& scene) {
 RayReport check_rays(const Intersector& ours, const Oracle& oracle, const DenseCheck* dense,
                      std::span<const ProbeRay> rays) {
   const std::vector<Answer> answers = trace(ours, rays);
-  Check check(oracle, dense);
+  RayCheck check(oracle, dense);
   for (std::size_t i = 0; i < rays.size(); ++i) check.ray(rays[i], answers[i]);
   return check.report();
 }

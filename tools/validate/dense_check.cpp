@@ -31,11 +31,11 @@ struct Line {
   double parameter(const Vec3& p) const { return direction.dot(p - origin) / squared_length; }
 };
 
-struct Box {
+struct Bounds {
   Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
 
   void add(const Vec3& p) { lower = lower.cwiseMin(p), upper = upper.cwiseMax(p); }
-  void add(const Box& box) { lower = lower.cwiseMin(box.lower), upper = upper.cwiseMax(box.upper); }
+  void add(const Bounds& box) { lower = lower.cwiseMin(box.lower), upper = upper.cwiseMax(box.upper); }
 
   /// The part of [tmin, tmax] in which the ray is inside; first > second if there is none.
   std::pair<double, double> overlap(const Line& ray, double tmin, double tmax) const {
@@ -94,7 +94,7 @@ class DenseCheck::Implementation {
     int face, sub;
   };
   struct Node {
-    Box box;
+    Bounds box;
     int first, count;  // count 0: an inner node with children first and first + 1
   };
   using Grid = std::array<std::array<int, 2>, 3>;
@@ -105,7 +105,7 @@ class DenseCheck::Implementation {
   }
   void add_piece(int face, int sub);
   void add_triangle(Triangle triangle);
-  Box box_of(const Triangle& triangle) const;
+  Bounds box_of(const Triangle& triangle) const;
   void build(std::size_t node, int first, int end);
   void look(const Line& ray, const Triangle& triangle, double tmin, std::optional<OracleHit>& best, double& tmax) const;
   std::optional<OracleHit> polish(const Line& ray, SurfaceParameter at) const;
@@ -164,8 +164,8 @@ void DenseCheck::Implementation::add_triangle(Triangle triangle) {
   triangles_.push_back(triangle);
 }
 
-Box DenseCheck::Implementation::box_of(const Triangle& triangle) const {
-  Box box;
+Bounds DenseCheck::Implementation::box_of(const Triangle& triangle) const {
+  Bounds box;
   for (const auto& [i, j] : grid_corners(triangle)) box.add(point(triangle.piece, i, j));
   box.lower.array() -= triangle.bulge;
   box.upper.array() += triangle.bulge;
@@ -173,9 +173,9 @@ Box DenseCheck::Implementation::box_of(const Triangle& triangle) const {
 }
 
 void DenseCheck::Implementation::build(std::size_t node, int first, int end) {
-  Box box, middles;
+  Bounds box, middles;
   for (int t = first; t < end; ++t) {
-    const Box one = box_of(triangles_[t]);
+    const Bounds one = box_of(triangles_[t]);
     box.add(one);
     middles.add(Vec3((one.lower + one.upper) / 2));
   }

@@ -9,9 +9,6 @@ namespace {
 
 using OpenSubdiv::Sdc::SchemeType;
 
-constexpr int rings = 2;  ///< masks of radius 1 read one; a cut makes the points at its rim wrong
-constexpr int most_levels = 200;
-
 /// Loop 1987: the square is not optional.
 VertexWeights<Quad> loop_weights(int n) {
   const Quad root = Quad(3) / 8 + cos(boost::math::constants::two_pi<Quad>() / n) / 4;
@@ -54,6 +51,8 @@ RootMesh QuadOracle::make_root(const ControlMesh& mesh) {
 }
 
 QuadVec3 QuadOracle::position(const SurfaceParameter& at) const {
+  constexpr int rings = 2;  // masks of radius 1 read one; a cut makes the points at its rim wrong
+  constexpr int most_levels = 200;
   const RootMesh::Place place = root_.place_of(at);
   double u = place.u, v = place.v;
   const TaggedMesh* mesh = &root_.mesh;
