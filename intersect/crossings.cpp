@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -79,7 +80,7 @@ double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3
 /// Of contacts at one place, in the order of (face, sub).
 Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
   std::vector<std::pair<const SurfaceParameter*, int>> faces;  // and the sign of each
-  bool is_mixed = false;  // some face has both
+  bool is_mixed = false;                                       // some face has both
   for (std::size_t i = 0; i < contacts.size();) {
     const SurfaceParameter& at = contacts[i].hit.at;
     int least = 1, most = -1;
@@ -103,6 +104,16 @@ Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, c
   return turns > 0 ? Sense::leaves : turns < 0 ? Sense::enters : Sense::touches;
 }
 
+/// Of contacts at one place.
+std::optional<Hit> closest_of(std::span<const Contact> contacts, const ClosestBetween& closest) {
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const Contact& contact : contacts) {
+    begin = std::min(begin, contact.distance - contact.uncertainty);
+    end = std::max(end, contact.distance + contact.uncertainty);
+  }
+  return closest(begin, end);
+}
+
 }  // namespace
 
 std::uint64_t count_uncertified(const std::vector<Crossing>& crossings) {
@@ -110,7 +121,8 @@ std::uint64_t count_uncertified(const std::vector<Crossing>& crossings) {
   return static_cast<std::uint64_t>(std::count_if(crossings.begin(), crossings.end(), is_uncertified));
 }
 
-std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
+std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
+                                const ClosestBetween& closest) {
   const ControlMesh& mesh = surface.control_mesh();
   const auto place = [](const Contact& c) { return std::tie(c.distance, c.hit.at.face, c.hit.at.sub); };
   std::sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) { return place(a) < place(b); });
@@ -156,8 +168,12 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurfac
     const std::size_t first = group[order[i]];
     together.clear();
     for (; i < order.size() && group[order[i]] == first; ++i) together.push_back(contacts[order[i]]);
-    result.push_back({contacts[first].hit, sense_of(together, surface, direction)});
+    if (const std::optional<Hit> hit = contacts[first].is_coarse ? closest_of(together, closest) : contacts[first].hit)
+      result.push_back({*hit, sense_of(together, surface, direction)});
   }
+  // What stood in for a coarse contact may be farther than the next one.
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.hit.t < b.hit.t; });
   return result;
 }
 

@@ -2,6 +2,8 @@
 /// Where a ray passes a surface: each crossing once, out of what the patches report.
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "ray.h"
@@ -33,7 +35,11 @@ struct Contact {
   double uncertainty;  ///< by how much `distance` may be off
   double error;        ///< by how much coordinates across the ray may be off
   bool is_proven;      ///< the only one of its parameter cell, where the surface is not tangent to the ray
+  bool is_coarse;      ///< stands for a cell that was too large for rounding to be all that its place is off by
 };
+
+/// The closest hit between two distances along the ray, if there is one.
+using ClosestBetween = std::function<std::optional<Hit>(double begin, double end)>;
 
 /// How far off along the ray a contact may be whose coordinates carry an error, and which stands for a piece of surface
 /// that reaches so far: a point is on the ray to within twice the error, and on a slope of cosine |n.d| against the ray
@@ -51,7 +57,9 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). A face
 /// counts pi (of its edge, or of all of its inner points), and of a corner the angle between its sides; contacts of
 /// one face with opposite signs (a double root) cancel. The nearest contact stands for all; at equal distances the one
-/// of the lowest face and sub. O(n log n + n f) for contacts of f faces.
-std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction);
+/// of the lowest face and sub. If it is coarse (of a ray that runs along the surface), the closest hit does that lies
+/// where the contacts may be; without one there is no crossing. O(n log n + n f) for contacts of f faces.
+std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
+                                const ClosestBetween& closest);
 
 }  // namespace shaolin

@@ -112,6 +112,8 @@ class ShaoLin {
   }
   template <Query query>
   std::optional<FoundAt> search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
+  /// Within the distances of `traversal`. A PatchBudget::Query must span it: what is found is in a tree.
+  std::optional<Hit> closest(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
 
   const SchemeSurface<S>& surface_;
   Finish<S> finish_;
@@ -206,17 +208,29 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
           hit.certificate.residual = distance_from_line(hit.sample.position, traversal.origin, traversal.direction);
           const double cosine = std::abs(hit.sample.normal.dot(traversal.direction));
           const double uncertainty = contact_uncertainty(one.error, one.reach, cosine);
-          contacts.push_back({hit, one.distance, uncertainty, one.error, one.is_proven});
+          // (A cell that is a point to within rounding reaches 64 errors at most.)
+          contacts.push_back({hit, one.distance, uncertainty, one.error, one.is_proven, one.reach > 64 * one.error});
         }
         return false;
       });
-  return crossings(std::move(contacts), surface_, traversal.direction);
+  const auto closest_between = [&](double begin, double end) {
+    TraversalRay part = traversal;
+    part.near = std::max(part.near, begin);
+    part.far = std::min(part.far, end);
+    return closest(ray, part, counters);
+  };
+  return crossings(std::move(contacts), surface_, traversal.direction, closest_between);
 }
 
 template <Scheme S, template <class> class Finish>
 std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& counters) const {
-  const PatchBudget::Query guard(start_patches_.budget());  // what is found is in a tree
-  const TraversalRay traversal(ray);
+  const PatchBudget::Query guard(start_patches_.budget());
+  return closest(ray, TraversalRay(ray), counters);
+}
+
+template <Scheme S, template <class> class Finish>
+std::optional<Hit> ShaoLin<S, Finish>::closest(const Ray& ray, const TraversalRay& traversal,
+                                               RayCounters& counters) const {
   const std::optional<FoundAt> best = search<Query::closest>(ray, traversal, counters);
   if (!best) return {};
   Hit hit = finish_.hit(best->found, best->primitive.face, best->primitive.sub, surface_);

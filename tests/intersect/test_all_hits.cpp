@@ -213,6 +213,35 @@ TEST_CASE("A ray within a flat surface touches it once", "[intersect][all]") {
   }
 }
 
+TEST_CASE("Of rays along a surface the first of all hits is the closest", "[intersect][all][sweep]") {
+  // A contact stood for a cell of up to 2^-6 of a patch, and came before the surface by 1e-4 of the way. Found by
+  // `shaolin stress`.
+  Random random(15);
+  for (const Model& model : all_models()) {
+    INFO(model.name);
+    const Scene scene(model.mesh, model.scheme);
+    const LimitSurface& surface = scene.surface();
+    const double diagonal = model.mesh.diagonal();
+    int rays = 0, differ = 0;
+    for_each_patch(surface, [&](int face, int sub) {
+      if (random.uniform() > 20.0 / surface.face_count()) return;
+      const double u = random.uniform(), v = random.uniform() * (surface.triangular() ? 1 - u : 1);
+      const double angle = random.uniform(0, 6.3);
+      const LimitSample target = *surface.evaluate({face, sub, u, v});
+      if (!target.derivatives) return;
+      const Vec3 along = std::cos(angle) * target.derivatives->du + std::sin(angle) * target.derivatives->dv;
+      const Ray ray = ray_at(target.position, along.normalized(), 2 * diagonal);
+      const std::optional<Hit> closest = scene.intersect(ray);
+      const std::vector<Crossing> all = scene.all_hits(ray);
+      ++rays;
+      differ += closest.has_value() == all.empty();
+      if (closest && !all.empty()) differ += std::abs(all.front().hit.t - closest->t) > 1e-9 * diagonal;
+    });
+    CAPTURE(rays);
+    CHECK(differ == 0);
+  }
+}
+
 TEST_CASE("Only exact objects have all hits", "[intersect][all]") {
   SceneOptions options;
   options.method = Method::uniform;
