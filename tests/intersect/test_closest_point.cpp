@@ -7,11 +7,11 @@
 #include "schemes/errors.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
-#include "tests/intersect/dense_sampling.h"
 #include "tests/intersect/hand_made_patches.h"
 #include "tests/intersect/random_affine.h"
 #include "tests/models.h"
 #include "tests/plugins/plugin_files.h"
+#include "tools/validate/dense_sampling.h"
 
 namespace shaolin {
 

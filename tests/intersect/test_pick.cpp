@@ -3,8 +3,8 @@
 
 #include "intersect/scene.h"
 #include "tests/catch.h"
-#include "tests/intersect/dense_sampling.h"
 #include "tests/intersect/shape_models.h"
+#include "tools/validate/dense_sampling.h"
 
 namespace shaolin {
 

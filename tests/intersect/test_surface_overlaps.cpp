@@ -1,8 +1,8 @@
 // Two surfaces overlap where brute force says so, and where one is moved on to the other by their distance.
 #include "intersect/scene.h"
 #include "tests/catch.h"
-#include "tests/intersect/dense_sampling.h"
 #include "tests/intersect/shape_models.h"
+#include "tools/validate/dense_sampling.h"
 
 namespace shaolin {
 

@@ -2,9 +2,9 @@
 #include "intersect/scene.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
-#include "tests/intersect/dense_sampling.h"
 #include "tests/intersect/shape_models.h"
 #include "tests/plugins/plugin_files.h"
+#include "tools/validate/dense_sampling.h"
 
 namespace shaolin {
 

@@ -1,6 +1,10 @@
 /// The subcommands of `bench` at small sizes.
 #include <malloc.h>
 
+#include <iterator>
+#include <map>
+#include <sstream>
+
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
 #include "tools/bench/paper_figures.h"
@@ -325,6 +329,62 @@ TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli]
   }
 }
 
+TEST_CASE("bench closest holds closest points against brute force and triangles", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "closest", data_file("rook.obj"), data_file("loop_torus.obj"),
+                                      "--checked", "40", "--queries", "100", "--runs", "1", "--error", "1e-3"});
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 0);
+  const auto lines = split(outcome.text, '\n');
+  REQUIRE(lines.size() >= 3);
+  for (const std::size_t i : {1, 2}) {
+    std::istringstream row(lines[i]);
+    std::string model;
+    double checked = 0, wrong = 0, worst = 0, level = 0, triangles = 0, error = 0, ours = 0, theirs = 0;
+    row >> model >> checked >> wrong >> worst >> level >> triangles >> error >> ours >> theirs;
+    CHECK(model == (i == 1 ? "rook" : "loop_torus"));
+    CHECK(checked == 40);
+    CHECK(wrong == 0);
+    CHECK(worst < 1e-12);
+    // Triangles are off, and not by more than was asked: level 0 would be, by far.
+    CHECK(level >= 1);
+    CHECK(triangles > 500);
+    CHECK((error > 1e-7 && error <= 1e-3));
+    CHECK((ours > 0 && theirs > 0));
+  }
+}
+
+TEST_CASE("bench moved: the exact method stays exact, single precision does not", "[tools][cli][bench]") {
+  const Folder folder;
+  const Outcome outcome = folder.run({"bench", "moved", data_file("torus.obj"), "--shifts", "0,1e6", "--scales", "1e-6",
+                                      "--rays", "500", "--exact-hits", "5", "--level", "3"});
+  CAPTURE(outcome.text);
+  CHECK(outcome.status == 0);
+  const auto lines = split(outcome.text, '\n');
+  std::map<std::string, double> median;  // by move and method
+  int rows = 0;
+  for (const std::string& line : lines) {
+    if (!line.starts_with("torus ")) continue;
+    ++rows;
+    const auto words = [&] {
+      std::istringstream in(line);
+      return std::vector<std::string>(std::istream_iterator<std::string>(in), {});
+    }();
+    const std::string method = words[3] + words[4];
+    median[words[2] + " " + method] = std::stod(words[words.size() - 3]);
+    const double hits = std::stod(words[words.size() - 6]);
+    CHECK((method == "Embreetriangles," || method == "Embreesubdivision," || hits > 300));
+  }
+  CHECK(rows == 3 * 4);
+  CHECK(median.at("0 ShaoLinexact") < 1e-15);
+  CHECK(median.at("1e-06 ShaoLinexact") < 1e-15);
+  CHECK(median.at("1e+06 ShaoLinexact") < 1e-9);
+  // At level 3 triangles are off by some 1e-3; a float has no digits left for the model at 1e6 diagonals.
+  CHECK((median.at("0 CGAL,level") > 1e-6 && median.at("0 CGAL,level") < 1e-2));
+  CHECK(median.at("1e+06 CGAL,level") < 1e-2);
+  CHECK((median.at("1e+06 Embreesubdivision,") > 1e-2 || median.at("1e+06 Embreesubdivision,") == 0));
+}
+
 TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
   const Folder folder;
   const std::string file = folder.write("file", ""), report = folder / "out", torus = data_file("torus.obj");
@@ -350,6 +410,12 @@ TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
            {"bench", "lost"},
            {"bench", "lost", torus, "--rays", "0"},
            {"bench", "lost", torus, "--epsilon", "-1"},
+           {"bench", "closest"},
+           {"bench", "closest", torus, "--error", "0"},
+           {"bench", "closest", torus, "--runs", "0"},
+           {"bench", "moved"},
+           {"bench", "moved", torus, "--shifts", "-1"},
+           {"bench", "moved", torus, "--scales", "0"},
        }) {
     CAPTURE(usage);
     CHECK(folder.run(usage).status == 2);
@@ -362,6 +428,10 @@ TEST_CASE("bench says what is wrong with its options", "[tools][cli][bench]") {
            {"bench", "pareto", torus, folder / "nothing.obj", "--report", report},
            {"bench", "scaling", "--report", file},
            {"bench", "lost", folder / "nothing.obj"},
+           {"bench", "closest", folder / "nothing.obj"},
+           {"bench", "closest", data_file("scenes/mirrors.json")},
+           {"bench", "moved", folder / "nothing.obj"},
+           {"bench", "moved", data_file("scenes/mirrors.json")},
        }) {
     CAPTURE(bad);
     const Outcome outcome = folder.run(bad);

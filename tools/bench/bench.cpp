@@ -2,7 +2,9 @@
 
 #include <memory>
 
+#include "tools/bench/closest.h"
 #include "tools/bench/lost.h"
+#include "tools/bench/moved.h"
 #include "tools/bench/paper.h"
 #include "tools/bench/pareto.h"
 #include "tools/bench/scaling.h"
@@ -146,6 +148,65 @@ void add_lost(CLI::App& app, Command& command) {
   sub->callback([options, &command] { command = [options] { return bench_lost(*options); }; });
 }
 
+void add_closest_bench(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<ClosestBenchOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "closest",
+      "Closest points against brute force, exits with 1 if any is wrong, and their speed against CGAL's tree over "
+      "triangles");
+  sub->add_option("MODEL", options->models, "OBJ files of Loop or Catmull-Clark")->required();
+  sub->add_option("--checked", options->checked, "Points of each model that brute force looks at, too")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000000}))
+      ->capture_default_str();
+  sub->add_option("--queries", options->queries, "Points that are timed")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
+      ->capture_default_str();
+  sub->add_option("--error", options->error,
+                  "Triangles are refined until their distances are off by less, in diagonals")
+      ->check(is_positive())
+      ->capture_default_str();
+  sub->add_option("--triangles", options->most_triangles, "No more of them")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
+      ->capture_default_str();
+  add_runs_option(*sub, options->runs);
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  add_threads_option(*sub, options->threads);
+  sub->callback([options, &command] { command = [options] { return bench_closest(*options); }; });
+}
+
+void add_moved(CLI::App& app, Command& command) {
+  const auto options = std::make_shared<MovedOptions>();
+  CLI::App* sub = app.add_subcommand(
+      "moved", "Errors where a model is far from the origin, tiny or huge: ours, Embree's and CGAL's");
+  sub->add_option("MODEL", options->models, "OBJ files")->required();
+  add_scheme_options(*sub, options->scheme);
+  sub->add_option("--shifts", options->shifts, "By how many diagonals the model is moved, with commas in between")
+      ->check(CLI::Range(0.0, 1e12))
+      ->delimiter(',')
+      ->capture_default_str();
+  sub->add_option("--scales", options->scales, "How many times as large it becomes, with commas in between")
+      ->check(CLI::Range(1e-30, 1e30))
+      ->delimiter(',')
+      ->capture_default_str();
+  sub->add_option("--rays", options->rays, "Rays at each")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
+      ->capture_default_str();
+  sub->add_option("--exact-hits", options->exact_hits,
+                  "Hits of the exact method that are held against the control mesh, refined in quadruple precision")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1000000}))
+      ->capture_default_str();
+  sub->add_option("--level", options->level, "Of the others' triangles")
+      ->check(CLI::Range(1, 10))
+      ->capture_default_str();
+  sub->add_option("--seed", options->seed, "Seed of the random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  add_threads_option(*sub, options->threads);
+  sub->callback([options, &command] { command = [options] { return bench_moved(*options); }; });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, Command& command) {
@@ -156,6 +217,8 @@ void add_bench(CLI::App& app, Command& command) {
   add_pareto(*sub, command);
   add_scaling(*sub, command);
   add_lost(*sub, command);
+  add_closest_bench(*sub, command);
+  add_moved(*sub, command);
 }
 
 }  // namespace shaolin

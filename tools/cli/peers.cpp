@@ -30,7 +30,7 @@ struct Cell {
   }
 };
 
-struct Row {
+struct PeerRow {
   int models = 0;
   std::vector<Cell> cells;
 };
@@ -38,7 +38,7 @@ struct Row {
 /// Beyond, points are not where the scheme puts them: a hundred times what rounding does in a few steps.
 constexpr double wrong = 1e-12;
 
-void add(Row& row, const PeerCase& of, const std::string& model,
+void add(PeerRow& row, const PeerCase& of, const std::string& model,
          const std::vector<std::unique_ptr<const Peer>>& libraries) {
   ++row.models;
   row.cells.resize(libraries.size());
@@ -60,7 +60,7 @@ int peers(const PeersOptions& options) {
   const auto libraries = peers();
   std::vector<LoadedPlugin> plugins;
   for (const auto& file : options.plugins) plugins.push_back(load_plugin(file));
-  std::map<std::pair<std::string, std::string>, Row> rows;
+  std::map<std::pair<std::string, std::string>, PeerRow> rows;
   for (const auto& file : options.models) {
     const ControlMesh mesh = read_obj(file);
     if (!mesh.cones.empty()) throw InputError("no other library has conical vertices", file.string());

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view ray_columns = "ox,oy,oz,dx,dy,dz,tmin,tmax";
 constexpr std::string_view hit_columns = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,certified,residual,error";
-using Answer = QueryOptions::Answer;
+using Asked = QueryOptions::Answer;
 
 CsvTable parse_rays(const std::vector<std::string>& texts) {
   CsvTable table("--ray");
@@ -52,10 +52,10 @@ Ray to_ray(std::span<const double> row) {
   return ray;
 }
 
-std::string columns(Answer answer, bool instances) {
-  if (answer == Answer::count) return "ray,count";
+std::string columns(Asked answer, bool instances) {
+  if (answer == Asked::count) return "ray,count";
   std::string all(hit_columns);
-  if (answer == Answer::all) all += ",sense";
+  if (answer == Asked::all) all += ",sense";
   if (instances) all += ",instance";
   return all;
 }
@@ -63,8 +63,8 @@ std::string columns(Answer answer, bool instances) {
 /// Answers as rows; those of a scene file have one column more.
 class HitWriter {
  public:
-  HitWriter(const std::filesystem::path& file, Answer answer, bool instances)
-      : writer_(file, columns(answer, instances)), senses_(answer == Answer::all), instances_(instances) {}
+  HitWriter(const std::filesystem::path& file, Asked answer, bool instances)
+      : writer_(file, columns(answer, instances)), senses_(answer == Asked::all), instances_(instances) {}
 
   /// A row of which only the first two fields are known. (Of char, as std::vector<bool> shares bytes between threads.)
   void write(std::size_t ray, char hit) {
@@ -130,16 +130,16 @@ void query_in_arena(const QueryOptions& options) {
   const Scene scene = build_scene(stage, options.scene);
   HitWriter writer(options.hits, options.answer, stage.is_scene);
   switch (options.answer) {
-    case Answer::closest:
+    case Asked::closest:
       answer_all(rays, writer, [&](const Ray& ray) { return scene.intersect(ray); });
       break;
-    case Answer::any:
+    case Asked::any:
       answer_all(rays, writer, [&](const Ray& ray) { return static_cast<char>(scene.occluded(ray)); });
       break;
-    case Answer::all:
+    case Asked::all:
       answer_all(rays, writer, [&](const Ray& ray) { return scene.all_hits(ray); });
       break;
-    case Answer::count:
+    case Asked::count:
       answer_all(rays, writer, [&](const Ray& ray) { return scene.count(ray); });
       break;
   }
@@ -189,21 +189,21 @@ void add_query(CLI::App& app, Command& command) {
          "order "
          "with groups dissolved. By default, and for '-', the standard output")
       ->type_name("FILE");
-  const auto add_answer = [&](const char* name, Answer answer, const char* help) {
+  const auto add_answer = [&](const char* name, Asked answer, const char* help) {
     return sub->add_flag_callback(
         name, [options, answer] { options->answer = answer; }, help);
   };
   CLI::Option* const any = add_answer(
-      "--any", Answer::any,
+      "--any", Asked::any,
       "Ask only whether a ray hits anything, which is cheaper: the columns stay, all fields after hit are empty, as no "
       "closest point is known");
   CLI::Option* const all =
-      add_answer("--all", Answer::all,
+      add_answer("--all", Asked::all,
                  "All hits, in ascending order of t: a row for each, hit counts from 1, and one column more, sense: -1 "
                  "where the ray "
                  "enters (against the normal), 1 where it leaves, 0 where it touches and stays on its side");
   CLI::Option* const count = add_answer(
-      "--count", Answer::count,
+      "--count", Asked::count,
       "How many hits are crossings, which is odd from inside of a closed surface: the columns are ray,count");
   any->excludes(all)->excludes(count);
   all->excludes(count);

@@ -10,8 +10,7 @@ namespace shaolin::stress {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN(),
-                 denormal = std::numeric_limits<double>::denorm_min();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), denormal = std::numeric_limits<double>::denorm_min();
 
 double not_finite(SampleRandom& random) { return pick(std::vector{nan, infinity, -infinity}, random); }
 

@@ -11,8 +11,6 @@ namespace shaolin::stress {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// A hit may be off by so many of Subject::rounding(). The exact finish accepts points within twice its bound across
 /// the ray in two coordinates, takes cells for points that reach 16 times as far along it, whose middle may be off by
 /// 8, and its own evaluation, ours and the ray's point at t are off by one each: sqrt(4 + 4 + 64) + 3 < 12.

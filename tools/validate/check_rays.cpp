@@ -18,13 +18,13 @@ constexpr double same_hit = 1e-9;
 constexpr double sideways = 1e-10;
 constexpr double along = 1e-5;
 
-struct Answer {
+struct ProbeAnswer {
   std::optional<Hit> hit;
   char occluded = false;
 };
 
-std::vector<Answer> trace(const Intersector& ours, std::span<const ProbeRay> rays) {
-  std::vector<Answer> answers(rays.size());
+std::vector<ProbeAnswer> trace(const Intersector& ours, std::span<const ProbeRay> rays) {
+  std::vector<ProbeAnswer> answers(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     answers[i] = {ours.intersect(rays[i].ray), static_cast<char>(ours.occluded(rays[i].ray))};
   });
@@ -45,7 +45,7 @@ class RayCheck {
  public:
   RayCheck(const Oracle& oracle, const DenseCheck* dense) : oracle_(oracle), dense_(dense) {}
 
-  void ray(const ProbeRay& probe, const Answer& answer);
+  void ray(const ProbeRay& probe, const ProbeAnswer& answer);
   const RayReport& report() const { return report_; }
 
  private:
@@ -74,7 +74,7 @@ class RayCheck {
   RayReport report_;
 };
 
-void RayCheck::ray(const ProbeRay& probe, const Answer& answer) {
+void RayCheck::ray(const ProbeRay& probe, const ProbeAnswer& answer) {
   RayFigures& figures = report_.by_kind[static_cast<std::size_t>(probe.kind)];
   const Context context{probe.ray, figures, probe.ray.direction.norm()};
   ++figures.rays;
@@ -188,7 +188,7 @@ Intersector Intersector::of(const Scene& scene) {
 
 RayReport check_rays(const Intersector& ours, const Oracle& oracle, const DenseCheck* dense,
                      std::span<const ProbeRay> rays) {
-  const std::vector<Answer> answers = trace(ours, rays);
+  const std::vector<ProbeAnswer> answers = trace(ours, rays);
   RayCheck check(oracle, dense);
   for (std::size_t i = 0; i < rays.size(); ++i) check.ray(rays[i], answers[i]);
   return check.report();

@@ -1,6 +1,6 @@
 #pragma once
-// The distance of a point from a limit surface by brute force: it shares no code with the search that it checks, only
-// the evaluation of the surface.
+/// The distance of a point from a limit surface by brute force: it shares no code with the search that it checks, only
+/// the evaluation of the surface.
 #include <algorithm>
 #include <map>
 #include <vector>
