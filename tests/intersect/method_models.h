@@ -11,7 +11,6 @@ inline std::vector<Model> method_models() {
   holed.holes = {3, 7};
   return {{"poles", "catmark", shaken(poles("catmark", 5), 0.1)},
           {"poles", "loop", shaken(poles("loop", 7), 0.1)},
-          {"poles of three", "loop", shaken(poles("loop", 3), 0.2)},
           {"prism", "catmark", shaken(prism(5), 0.1)},
           {"creased torus", "catmark", std::move(creased)},
           {"holed sheet", "loop", shaken(std::move(holed), 0.1)}};
