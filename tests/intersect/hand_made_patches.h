@@ -6,6 +6,9 @@
 
 namespace shaolin {
 
+/// Of patches by hand, whose coordinates are below 8: some 64 u of that.
+inline constexpr double patch_error = 1e-13;
+
 /// A patch of points place(u, v), which is exact for a place that is linear in u and in v.
 inline BezierQuad quad(const std::function<Vec3(double, double)>& place) {
   BezierQuad patch;

@@ -37,4 +37,14 @@ inline bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
          a->certificate.residual == b->certificate.residual && a->certificate.error == b->certificate.error;
 }
 
+/// What rays hit, in their order.
+using Hits = std::vector<std::optional<Hit>>;
+
+/// How many of them are not the same.
+inline std::size_t differences(const Hits& a, const Hits& b) {
+  std::size_t count = a.size() != b.size();
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) count += !same(a[i], b[i]);
+  return count;
+}
+
 }  // namespace shaolin

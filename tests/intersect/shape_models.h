@@ -1,8 +1,5 @@
 #pragma once
 // Models and maps that queries with shapes are tested on.
-#include <functional>
-
-#include "schemes/errors.h"
 #include "tests/intersect/random_affine.h"
 #include "tests/models.h"
 
@@ -35,16 +32,6 @@ inline std::vector<Model> shape_models() {
 inline Eigen::Matrix3d random_axes(Random& random) {
   const double angle = random.uniform(0, 6);
   return Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix();
-}
-
-/// The message of the InputError that an act throws.
-inline std::string refusal_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace shaolin

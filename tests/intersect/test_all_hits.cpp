@@ -4,6 +4,7 @@
 #include "intersect/scene.h"
 #include "schemes/errors.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/aimed_rays.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/meshes.h"
@@ -12,8 +13,6 @@
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Every side of a face is one of exactly one other, the other way round, and all faces have a surface.
 bool is_closed(const ControlMesh& mesh) {

@@ -3,6 +3,7 @@
 
 #include "schemes/limit_surface.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/aimed_rays.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/models.h"
@@ -10,8 +11,6 @@
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// True if the ray straight down at (x, y) hits; the plane z = 0 is met at t = 1.
 bool down_hits(const Scene& scene, double x, double y) {

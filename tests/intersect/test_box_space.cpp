@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/slow_slab.h"
 
 namespace shaolin {
@@ -14,7 +15,7 @@ namespace {
 /// and of how far the ray's start is from its middle.
 constexpr double resolution = 0x1p-20;
 
-struct Tally {
+struct EightBoxesTally {
   int met = 0, lost = 0, invented = 0, out_of_order = 0, late = 0, differ = 0;
 
   void ask(const std::array<Box, 8>& boxes, const Box& scene, const Ray& given) {
@@ -78,7 +79,7 @@ Box bounds_of(const std::array<Box, 8>& boxes) {
 
 TEST_CASE("Eight boxes are met where each one is, front to back", "[intersect][box]") {
   Random random(1);
-  Tally tally;
+  EightBoxesTally tally;
   for (int i = 0; i < 60'000; ++i) {
     const std::array<Box, 8> boxes = round_boxes(random);
     tally.ask(boxes, bounds_of(boxes), round_ray(random));
@@ -88,7 +89,7 @@ TEST_CASE("Eight boxes are met where each one is, front to back", "[intersect][b
 
 TEST_CASE("A scene's place, size and distance lose no box", "[intersect][box]") {
   Random random(2);
-  Tally tally;
+  EightBoxesTally tally;
   for (int i = 0; i < 60'000; ++i) {
     const double size = std::exp2(random.uniform(-100, 100));
     const double away = size * std::exp2(random.uniform(0, 30));
@@ -138,7 +139,6 @@ TEST_CASE("A line without a start meets boxes on both sides of its origin", "[in
   scene.add(Vec3(-1, -1, -1));
   scene.add(Vec3(1, 1, 1));
   const BoxSpace space(scene);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const BoxRay line(TraversalRay({{0, 0, 0}, {1, 0.25, 0}, -infinity, infinity}), space, -infinity);
   const auto meets = [&](const Vec3& middle) {
     const Vec3 half = Vec3::Constant(0.1);

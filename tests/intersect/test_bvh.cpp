@@ -5,13 +5,12 @@
 #include <set>
 
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/random.h"
 
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// True if a point of the closed box, grown by `margin`, lies on the line within [near, far]. By clipping the interval
 /// axis by axis, in long double: no infinities of zero directions to juggle with.

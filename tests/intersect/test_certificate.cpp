@@ -4,6 +4,7 @@
 #include "intersect/newton_finish.h"
 #include "schemes/bezier_quad.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/aimed_rays.h"
 #include "tests/intersect/hand_made_patches.h"
 #include "tests/intersect/random_rays.h"
@@ -14,13 +15,10 @@ namespace shaolin {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double error = 1e-13;  ///< of patches here, whose coordinates are below 8: some 64 u of that
-
 std::vector<PatchHit> all_hits(const BezierQuad& patch) {
   RayCounters counters;
   std::vector<PatchHit> hits;
-  NewtonFinish<BezierQuad>(error, 0, infinity, false, counters).solve(Net(patch), hits);
+  NewtonFinish<BezierQuad>(patch_error, 0, infinity, false, counters).solve(Net(patch), hits);
   return hits;
 }
 
@@ -89,7 +87,8 @@ TEST_CASE("A proven zero is within its radius", "[intersect][certificate]") {
 
 TEST_CASE("False roots are not proven", "[intersect][certificate]") {
   SECTION("a fold that rounding cannot tell from the ray") {
-    for (const double c : {-0.9 * error, -0.5 * error, -0.01 * error, 0.0, 0.01 * error, 0.9 * error}) {
+    for (const double c :
+         {-0.9 * patch_error, -0.5 * patch_error, -0.01 * patch_error, 0.0, 0.01 * patch_error, 0.9 * patch_error}) {
       const std::vector<PatchHit> hits = all_hits(folded(c));
       CAPTURE(c);
       REQUIRE(!hits.empty());  // it may be one: no hit is lost
@@ -102,7 +101,7 @@ TEST_CASE("False roots are not proven", "[intersect][certificate]") {
     for (const PatchHit& hit : hits) CHECK(hit.radius < 1e-9);
   }
   SECTION("a patch that ends beside the ray, within rounding") {
-    for (const double gap : {-0.5 * error, 0.5 * error, 0.9 * error}) {
+    for (const double gap : {-0.5 * patch_error, 0.5 * patch_error, 0.9 * patch_error}) {
       const auto beside = [&](double u, double v) { return Vec3(u + gap, v - 0.4, 3); };
       for (const PatchHit& hit : all_hits(quad(beside))) {
         CHECK(hit.radius < 1);

@@ -7,8 +7,10 @@
 #include "schemes/errors.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/hand_made_patches.h"
 #include "tests/intersect/random_affine.h"
+#include "tests/intersect/refusal.h"
 #include "tests/models.h"
 #include "tests/plugins/plugin_files.h"
 #include "tools/validate/dense_sampling.h"
@@ -16,8 +18,6 @@
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool same(const std::optional<ClosestPoint>& a, const std::optional<ClosestPoint>& b) {
   if (!a || !b) return !a && !b;
@@ -80,7 +80,7 @@ std::vector<Model> test_models() {
 }
 
 /// Of one model, against brute force and itself.
-struct Differences {
+struct ClosestDifferences {
   double farther = -infinity;  ///< than brute force, in units of the diagonal
   double inconsistent = 0;     ///< position, parameter and distance
   double oblique = 0;          ///< |cosine| of the way to the point with tangents, inside of patches
@@ -101,13 +101,13 @@ struct Differences {
   }
 };
 
-void check_against_brute_force(const Model& model, int count, int steps) {
+void check_closest_against_brute_force(const Model& model, int count, int steps) {
   const Scene scene(model.mesh, model.scheme);
   const LimitSurface& surface = scene.surface();
   const DenseSampling samples(surface, steps);
   const double diagonal = model.mesh.diagonal();
   Random random(11);
-  Differences differences;
+  ClosestDifferences differences;
   for (int i = 0; i < count; ++i) {
     const Vec3 p = random_point(scene.bounds(), samples, surface, random);
     const auto closest = scene.closest_point(p);
@@ -120,26 +120,17 @@ void check_against_brute_force(const Model& model, int count, int steps) {
   CHECK(differences.oblique < 1e-5);
 }
 
-std::string message_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 }  // namespace
 
 TEST_CASE("The closest point is that of brute force", "[intersect][closest]") {
-  for (const Model& model : test_models()) check_against_brute_force(model, 24, 6);
+  for (const Model& model : test_models()) check_closest_against_brute_force(model, 24, 6);
 }
 
 TEST_CASE("The closest point is that of brute force: all models, many points", "[intersect][closest][sweep]") {
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
     if ((scene.bounds().lower.array() > scene.bounds().upper.array()).any()) continue;
-    check_against_brute_force(model, 60, model.mesh.face_count() > 1500 ? 4 : 8);
+    check_closest_against_brute_force(model, 60, model.mesh.face_count() > 1500 ? 4 : 8);
   }
 }
 
@@ -367,21 +358,21 @@ TEST_CASE("Surfaces without polynomials have closest points", "[intersect][close
 
 TEST_CASE("Questions that have no answer are refused, or are empty", "[intersect][closest]") {
   const Scene scene(cube(), "catmark");
-  CHECK(message_of([&] { scene.closest_point({0, std::nan(""), 0}); }).find("is not finite") != std::string::npos);
-  CHECK(message_of([&] { scene.closest_point({0, infinity, 0}); }).find("is not finite") != std::string::npos);
+  CHECK(refusal_of([&] { scene.closest_point({0, std::nan(""), 0}); }).find("is not finite") != std::string::npos);
+  CHECK(refusal_of([&] { scene.closest_point({0, infinity, 0}); }).find("is not finite") != std::string::npos);
   for (const double radius : {0.0, -1.0, std::nan("")})
-    CHECK(message_of([&] {
+    CHECK(refusal_of([&] {
             scene.closest_point({0, 0, 0}, radius);
           }).find("expected a positive length") != std::string::npos);
   const std::vector<Vec3> points{{0, 0, 0}, {infinity, 0, 0}};
-  CHECK(message_of([&] { scene.closest_points(points); }).find("point 1: ") == 0);
+  CHECK(refusal_of([&] { scene.closest_points(points); }).find("point 1: ") == 0);
 
   SceneOptions chord;
   chord.method = Method::chord;
   SceneOptions uniform;
   uniform.method = Method::uniform;
   for (const SceneOptions& options : {chord, uniform})
-    CHECK(message_of([&] {
+    CHECK(refusal_of([&] {
             Scene(cube(), "catmark", options).closest_point({0, 0, 0});
           }).find("Method::exact") != std::string::npos);
 

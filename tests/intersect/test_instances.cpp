@@ -7,23 +7,19 @@
 #include "tests/catch.h"
 #include "tests/intersect/random_affine.h"
 #include "tests/intersect/random_rays.h"
-#include "tests/meshes.h"
+#include "tests/intersect/refusal.h"
+#include "tests/models.h"
 
 namespace shaolin {
 
 namespace {
 
-struct Subject {
-  std::string name, scheme;
-  ControlMesh mesh;
-};
-
-std::vector<Subject> subjects() {
-  std::vector<Subject> all{{"torus", "catmark", shaken(torus("catmark", 4, 6), 0.1)},
-                           {"poles", "loop", shaken(poles("loop", 9), 0.2)},
-                           {"prism", "catmark", shaken(prism(5), 0.1)},
-                           {"fan", "loop", shaken(fan("loop", 4), 0.2)},
-                           {"linear poles", "linear", shaken(poles("loop", 5), 0.2)}};
+std::vector<Model> instanced_models() {
+  std::vector<Model> all{{"torus", "catmark", shaken(torus("catmark", 4, 6), 0.1)},
+                         {"poles", "loop", shaken(poles("loop", 9), 0.2)},
+                         {"prism", "catmark", shaken(prism(5), 0.1)},
+                         {"fan", "loop", shaken(fan("loop", 4), 0.2)},
+                         {"linear poles", "linear", shaken(poles("loop", 5), 0.2)}};
   all[1].mesh.sharp_edges = {{0, 2, 10}, {0, 6, 1.5}};
   return all;
 }
@@ -68,20 +64,11 @@ struct Differences {
   }
 };
 
-std::string message_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 }  // namespace
 
 TEST_CASE("An instance's hits are those of the transformed control mesh", "[intersect][instances]") {
   Random random(41);
-  for (const Subject& subject : subjects()) {
+  for (const Model& subject : instanced_models()) {
     const auto object = make_object(subject.mesh, subject.scheme);
     for (int round = 0; round < 6; ++round) {
       const bool mirrored = round % 2 == 1;
@@ -125,9 +112,9 @@ TEST_CASE("A mirrored normal looks outward still", "[intersect][instances]") {
 
 TEST_CASE("Among many instances the nearest answers, with its index", "[intersect][instances]") {
   Random random(43);
-  const std::vector<Subject> all = subjects();
+  const std::vector<Model> all = instanced_models();
   std::vector<std::shared_ptr<const Object>> objects;
-  for (const Subject& subject : all) objects.push_back(make_object(subject.mesh, subject.scheme));
+  for (const Model& subject : all) objects.push_back(make_object(subject.mesh, subject.scheme));
   std::vector<Instance> instances;
   std::vector<Scene> alone;
   for (int i = 0; i < 60; ++i) {
@@ -286,7 +273,7 @@ TEST_CASE("The box of an image holds the image", "[intersect][instances]") {
 
 TEST_CASE("Transforms that cannot be used are refused by instance", "[intersect][instances]") {
   const auto object = make_object(cube(), "catmark");
-  const auto refuse = [&](const Affine& map) { return message_of([&] { Scene({{object}, {object, map}}); }); };
+  const auto refuse = [&](const Affine& map) { return refusal_of([&] { Scene({{object}, {object, map}}); }); };
   Affine map = Affine::Identity();
   map.linear() << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   CHECK(refuse(map).find("instance 1: the transform is singular to rounding") == 0);
@@ -303,8 +290,8 @@ TEST_CASE("Transforms that cannot be used are refused by instance", "[intersect]
   map.translation().x() = std::numeric_limits<double>::max();
   map.linear() *= 1e308;
   CHECK(refuse(map).find("instance 1: ") == 0);
-  CHECK(message_of([&] { Scene({{object}, {nullptr}}); }).find("instance 1: has no object") == 0);
-  CHECK(message_of([&] { Scene({{object}}).surface(1); }).find("there is no instance 1") == 0);
+  CHECK(refusal_of([&] { Scene({{object}, {nullptr}}); }).find("instance 1: has no object") == 0);
+  CHECK(refusal_of([&] { Scene({{object}}).surface(1); }).find("there is no instance 1") == 0);
 
   // Uneven, not singular.
   map.setIdentity();

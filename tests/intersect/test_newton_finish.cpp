@@ -7,16 +7,13 @@
 #include "schemes/bezier_quad.h"
 #include "schemes/bezier_triangle.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/hand_made_patches.h"
 #include "tests/random.h"
 
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Coordinates here are below 8: some 64 u of that.
-constexpr double error = 1e-13;
 
 struct Interval {
   double near = 0, far = infinity;
@@ -26,7 +23,7 @@ struct Interval {
 template <class Bezier>
 std::optional<PatchHit> solve(const Bezier& patch, const Interval& interval = {}) {
   RayCounters counters;
-  NewtonFinish<Bezier> finish(error, interval.near, interval.far, interval.far_is_hit, counters);
+  NewtonFinish<Bezier> finish(patch_error, interval.near, interval.far, interval.far_is_hit, counters);
   if (!finish.solve(Net(patch))) return {};
   return finish.hit();
 }
@@ -160,7 +157,7 @@ TEST_CASE("Of two zeros of a folded patch the nearer counts", "[intersect][finis
       const auto hit = solve(folded(c, slope));
       REQUIRE(hit);
       // Near a fold, an error e of x moves u by e / (4 sqrt(c)).
-      const double allowed = 1e-12 + error / std::sqrt(c);
+      const double allowed = 1e-12 + patch_error / std::sqrt(c);
       CHECK(std::abs(hit->at.x() - u) < allowed);
       CHECK(std::abs(hit->at.y() - 0.375) < 1e-12);
       CHECK(std::abs(hit->distance - (3 + slope * u)) < allowed);
@@ -177,8 +174,8 @@ TEST_CASE("A ray that touches a fold hits, one beside it misses", "[intersect][f
   REQUIRE(touching);
   CHECK(std::abs(touching->at.x() - 0.5) < 1e-6);  // the root of the error
   CHECK(std::abs(touching->distance - 3.5) < 1e-6);
-  CHECK(solve(folded(-0.5 * error, 1)));  // rounding alone could have moved the fold off the ray
-  CHECK(!solve(folded(-10 * error, 1)));
+  CHECK(solve(folded(-0.5 * patch_error, 1)));  // rounding alone could have moved the fold off the ray
+  CHECK(!solve(folded(-10 * patch_error, 1)));
   CHECK(!solve(folded(-1e-6, 1)));
   CHECK(!solve(folded(-0.5, 1)));
 }

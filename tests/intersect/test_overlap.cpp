@@ -11,6 +11,7 @@
 #include "schemes/loop.h"
 #include "schemes/scheme_surface.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/meshes.h"
 #include "tests/property.h"
 
@@ -139,7 +140,7 @@ TEST_CASE("An ulp decides where a net is degenerate", "[intersect][overlap]") {
 }
 
 TEST_CASE("What is not finite, and planes that are none, are not planar", "[intersect][overlap]") {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Edge> edges{{0, 1}};
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}};
   CHECK(is_planar_straight_line_graph(points, edges, {0, 0, 1}));
@@ -166,11 +167,11 @@ struct Middle {
 
 /// The least Jacobian of the projected limit over samples, and whether the sheet's middle patch is called valid.
 template <Scheme S>
-struct Verdict {
+struct ProjectionVerdict {
   bool is_valid, is_planar;
   double least, largest;
 
-  explicit Verdict(const ControlMesh& mesh, int face, const Vec3* direction = nullptr, int steps = 16) {
+  explicit ProjectionVerdict(const ControlMesh& mesh, int face, const Vec3* direction = nullptr, int steps = 16) {
     const SchemeSurface<S> surface(mesh);
     const Patch<S> patch = surface.patch(face, 0);
     const Vec3 normal = direction ? *direction : chord_plane_normal(patch);
@@ -203,7 +204,7 @@ TEST_CASE("A bent strip is valid in planes that it does not turn away from", "[i
       const auto strip = [&](double x, double y) { return Vec3(std::sin(theta * x), y, std::cos(theta * x)); };
       const Middle<CatmullClark> middle(strip);
       const Vec3 n(std::sin(phi), 0, std::cos(phi));
-      const bool is_valid = Verdict<CatmullClark>(middle.mesh, middle.face, &n, 1).is_valid;
+      const bool is_valid = ProjectionVerdict<CatmullClark>(middle.mesh, middle.face, &n, 1).is_valid;
       CAPTURE(theta, phi);
       if (phi + 9 * theta / 16 > quarter) CHECK_FALSE(is_valid);
       if (phi + 9 * theta / 16 < quarter - 0.03) CHECK(is_valid);
@@ -228,7 +229,7 @@ TEMPLATE_TEST_CASE("The paper's Figure 12: a patch that bulges beyond its chords
         return Vec3(across * x, across * y, height * std::cos(angle));
       });
       CAPTURE(reach, height);
-      const Verdict<S> verdict(middle.mesh, middle.face);
+      const ProjectionVerdict<S> verdict(middle.mesh, middle.face);
       if (verdict.is_valid) CHECK(verdict.least > 0);
       const SchemeSurface<S> surface(middle.mesh);
       std::size_t parts = 0, resolved = 0;
@@ -256,7 +257,7 @@ TEMPLATE_TEST_CASE("Folded nets are not valid", "[intersect][overlap]", Loop, Ca
   const Vec3 up(0, 0, 1), down(0, 0, -1), side(1, 0, 0);
   const auto verdict = [&](auto map, const Vec3& n) {
     const Middle<S> middle(map);
-    return Verdict<S>(middle.mesh, middle.face, &n).is_valid;
+    return ProjectionVerdict<S>(middle.mesh, middle.face, &n).is_valid;
   };
   CHECK(verdict(flat, up));
   CHECK_FALSE(verdict(flat, down));
@@ -276,7 +277,7 @@ TEMPLATE_TEST_CASE("A planar net may have a limit that folds", "[intersect][over
   const Vec3 up(0, 0, 1);
   Random random(4);
   Middle<S> middle([&](double x, double y) { return Vec3(x, y, 0.1 * x * x); });
-  Verdict<S> now(middle.mesh, middle.face, &up, 8);
+  ProjectionVerdict<S> now(middle.mesh, middle.face, &up, 8);
   REQUIRE(now.is_valid);
   int refused = 0;
   for (int round = 0; round < 6000 && now.least > -0.001 * now.largest; ++round) {
@@ -287,7 +288,7 @@ TEMPLATE_TEST_CASE("A planar net may have a limit that folds", "[intersect][over
       const double reach = random.uniform(0, 0.5);
       p += reach * random.point();
     }
-    const Verdict<S> then(next, middle.face, &up, 8);
+    const ProjectionVerdict<S> then(next, middle.face, &up, 8);
     if (then.is_valid) REQUIRE(then.least > 0);
     refused += !then.is_valid;
     if (!then.is_planar || then.least * now.largest > now.least * then.largest) continue;
@@ -309,7 +310,7 @@ TEMPLATE_TEST_CASE("Nothing that is called valid folds", "[intersect][overlap]",
       ControlMesh mesh = poles(S::name, n);
       for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] += 0.1 * offsets[i % offsets.size()];
       for (const int face : {0, 1}) {
-        const Verdict<S> verdict(mesh, face);
+        const ProjectionVerdict<S> verdict(mesh, face);
         if (verdict.is_valid) RC_ASSERT(verdict.least > 0);
       }
     }
@@ -322,12 +323,12 @@ TEST_CASE("Slivers are valid as long as rounding cannot fold them", "[intersect]
     const double width = std::ldexp(1.0, -exponent);
     CAPTURE(exponent);
     const Middle<CatmullClark> even([&](double x, double y) { return Vec3(x, width * y + x, 0.25 * x * x); });
-    const Verdict<CatmullClark> verdict(even.mesh, even.face, &up);
+    const ProjectionVerdict<CatmullClark> verdict(even.mesh, even.face, &up);
     if (exponent <= 30) CHECK(verdict.is_valid);
     if (exponent >= 50) CHECK_FALSE(verdict.is_valid);
     // Turned over by as little.
     const Middle<CatmullClark> turned([&](double x, double y) { return Vec3(x, -width * y + x, 0.25 * x * x); });
-    CHECK_FALSE(Verdict<CatmullClark>(turned.mesh, turned.face, &up).is_valid);
+    CHECK_FALSE(ProjectionVerdict<CatmullClark>(turned.mesh, turned.face, &up).is_valid);
   }
 }
 

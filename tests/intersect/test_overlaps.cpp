@@ -3,6 +3,8 @@
 #include "intersect/scene.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
+#include "tests/intersect/refusal.h"
 #include "tests/intersect/shape_distance.h"
 #include "tests/intersect/shape_models.h"
 #include "tests/plugins/plugin_files.h"
@@ -11,8 +13,6 @@
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of any kind, about a point.
 Shape random_shape(const Vec3& at, double size, Random& random) {
@@ -65,7 +65,7 @@ bool same(const std::optional<ShapeContact>& a, const std::optional<ShapeContact
          a->sample.normal == b->sample.normal && a->on_shape == b->on_shape;
 }
 
-void check_against_brute_force(const Model& model, int count, int steps) {
+void check_overlaps_against_brute_force(const Model& model, int count, int steps) {
   const Scene scene(model.mesh, model.scheme);
   const LimitSurface& surface = scene.surface();
   const DenseSampling samples(surface, steps);
@@ -130,14 +130,14 @@ std::uint64_t check_touching(const Model& model, int count) {
 }  // namespace
 
 TEST_CASE("Shapes overlap a surface where brute force says so", "[intersect][overlaps]") {
-  for (const Model& model : shape_models()) check_against_brute_force(model, 60, 6);
+  for (const Model& model : shape_models()) check_overlaps_against_brute_force(model, 60, 6);
 }
 
 TEST_CASE("Shapes overlap a surface where brute force says so: all models", "[intersect][overlaps][sweep]") {
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
     if ((scene.bounds().lower.array() > scene.bounds().upper.array()).any()) continue;
-    check_against_brute_force(model, 200, model.mesh.face_count() > 1500 ? 4 : 8);
+    check_overlaps_against_brute_force(model, 200, model.mesh.face_count() > 1500 ? 4 : 8);
   }
 }
 

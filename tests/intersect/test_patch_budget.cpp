@@ -15,7 +15,7 @@ namespace shaolin {
 namespace {
 
 /// A mesh, and how to make an object of it.
-struct Subject {
+struct Recipe {
   std::string name;
   ControlMesh mesh;
   std::string scheme;
@@ -38,7 +38,7 @@ SceneOptions by_chords(Method method) {
 }
 
 /// Both kinds of faces, creases, poles and n-gons, a scheme without polynomials, and all methods that refine lazily.
-std::vector<Subject> subjects() {
+std::vector<Recipe> recipes() {
   ControlMesh creased = shaken(poles("catmark", 7), 0.2);
   creased.sharp_edges = {{0, 2, 10}, {0, 6, 1.5}, {1, 3, 2.5}};
   ControlMesh loop = shaken(poles("loop", 9), 0.2);
@@ -54,23 +54,15 @@ std::vector<Subject> subjects() {
           {"a3", creased, "catmark", nullptr, by_chords(Method::a3)}};
 }
 
-using Answers = std::vector<std::optional<Hit>>;
-
-std::size_t differences(const Answers& a, const Answers& b) {
-  std::size_t count = a.size() != b.size();
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) count += !same(a[i], b[i]);
-  return count;
-}
-
-Answers ask(const Scene& scene, const std::vector<Ray>& rays) {
-  Answers answers;
+Hits ask(const Scene& scene, const std::vector<Ray>& rays) {
+  Hits answers;
   for (const Ray& ray : rays) answers.push_back(scene.intersect(ray));
   return answers;
 }
 
 /// All rays from each of some threads, which start together, each with another ray; returns how many answers are not
 /// `expected`.
-std::size_t differences_under_load(const Scene& scene, const std::vector<Ray>& rays, const Answers& expected,
+std::size_t differences_under_load(const Scene& scene, const std::vector<Ray>& rays, const Hits& expected,
                                    std::size_t threads) {
   std::atomic<std::size_t> ready{0}, wrong{0};
   std::vector<std::thread> running;
@@ -87,25 +79,25 @@ std::size_t differences_under_load(const Scene& scene, const std::vector<Ray>& r
   return wrong;
 }
 
-/// Shares of what a subject holds without a budget; the last one is less than any tree.
+/// Shares of what a recipe holds without a budget; the last one is less than any tree.
 std::vector<std::uint64_t> budgets(std::uint64_t all) { return {all * 2, all / 2, all / 8, 1}; }
 
 }  // namespace
 
 TEST_CASE("A memory budget changes no answer and is kept", "[intersect][budget]") {
-  for (const Subject& subject : subjects()) {
-    CAPTURE(subject.name, subject.scheme);
-    const Scene kept = subject.scene(nullptr);
+  for (const Recipe& recipe : recipes()) {
+    CAPTURE(recipe.name, recipe.scheme);
+    const Scene kept = recipe.scene(nullptr);
     const std::uint64_t empty = kept.statistics().bytes;
     const std::vector<Ray> rays = random_rays(kept.bounds(), 100, 81);
-    const Answers expected = ask(kept, rays);
+    const Hits expected = ask(kept, rays);
     const Statistics all = kept.statistics();
     CHECK(all.patches_evicted == 0);
     CHECK(all.hits > 5);
     for (const std::uint64_t bytes : budgets(all.bytes - empty)) {
       CAPTURE(bytes);
       const auto budget = std::make_shared<PatchBudget>(bytes);
-      const Scene scene = subject.scene(budget);
+      const Scene scene = recipe.scene(budget);
       const std::uint64_t before = scene.statistics().bytes;
       CHECK(differences(ask(scene, rays), expected) == 0);
       const Statistics work = scene.statistics();
@@ -124,17 +116,17 @@ TEST_CASE("A memory budget changes no answer and is kept", "[intersect][budget]"
 }
 
 TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
-  for (const Subject& subject : subjects()) {
-    CAPTURE(subject.name, subject.scheme);
-    const Scene kept = subject.scene(nullptr);
+  for (const Recipe& recipe : recipes()) {
+    CAPTURE(recipe.name, recipe.scheme);
+    const Scene kept = recipe.scene(nullptr);
     const std::uint64_t empty = kept.statistics().bytes;
     const std::vector<Ray> rays = random_rays(kept.bounds(), 40, 82);
-    const Answers expected = ask(kept, rays);
+    const Hits expected = ask(kept, rays);
     for (const std::uint64_t bytes : budgets(kept.statistics().bytes - empty)) {
       CAPTURE(bytes);
       const auto budget = std::make_shared<PatchBudget>(bytes);
       {
-        const Scene scene = subject.scene(budget);
+        const Scene scene = recipe.scene(budget);
         const std::uint64_t before = scene.statistics().bytes;
         CHECK(differences_under_load(scene, rays, expected, 4) == 0);
         CHECK(budget->held() <= bytes);
@@ -151,17 +143,17 @@ TEST_CASE("A memory budget holds under load", "[intersect][budget]") {
 TEST_CASE("Under load there is twice the budget at most, and what queries that are underway need",
           "[intersect][budget]") {
   constexpr std::size_t threads = 4;
-  const Subject subject = subjects()[1];
-  const std::vector<Ray> rays = random_rays(subject.scene(nullptr).bounds(), 500, 85);
+  const Recipe recipe = recipes()[1];
+  const std::vector<Ray> rays = random_rays(recipe.scene(nullptr).bounds(), 500, 85);
   std::uint64_t most = 0;  // of one query
   for (const Ray& ray : rays) {
-    const Scene cold = subject.scene(nullptr);
+    const Scene cold = recipe.scene(nullptr);
     const std::uint64_t empty = cold.statistics().bytes;
     cold.intersect(ray);
     most = std::max(most, cold.statistics().bytes - empty);
   }
   const auto budget = std::make_shared<PatchBudget>(most);
-  const Scene scene = subject.scene(budget);
+  const Scene scene = recipe.scene(budget);
   std::vector<std::uint64_t> peaks(threads);
   std::vector<std::thread> running;
   for (std::uint64_t& peak : peaks)
@@ -179,21 +171,21 @@ TEST_CASE("Under load there is twice the budget at most, and what queries that a
 }
 
 TEST_CASE("Objects share a memory budget", "[intersect][budget]") {
-  const Subject subject = subjects()[1];
-  const Scene alone = subject.scene(nullptr);
+  const Recipe recipe = recipes()[1];
+  const Scene alone = recipe.scene(nullptr);
   const std::uint64_t empty = alone.statistics().bytes;
   const std::vector<Ray> rays = random_rays(alone.bounds(), 300, 83);
-  const Answers expected = ask(alone, rays);
+  const Hits expected = ask(alone, rays);
   const std::uint64_t bytes = alone.statistics().bytes - empty;
 
   const auto budget = std::make_shared<PatchBudget>(bytes);  // enough for one
-  const Scene first = subject.scene(budget);
+  const Scene first = recipe.scene(budget);
   const std::uint64_t tables = first.statistics().bytes;
   CHECK(differences(ask(first, rays), expected) == 0);
   CHECK(first.statistics().patches_evicted == 0);
   CHECK(budget->held() == bytes);
   {
-    const Scene second = subject.scene(budget);
+    const Scene second = recipe.scene(budget);
     CHECK(differences(ask(second, rays), expected) == 0);
     CHECK(first.statistics().patches_evicted > 0);
     CHECK(budget->held() <= bytes);
@@ -205,8 +197,8 @@ TEST_CASE("Objects share a memory budget", "[intersect][budget]") {
 }
 
 TEST_CASE("Trees that rays come by stay before others", "[intersect][budget]") {
-  const Subject subject = subjects()[1];
-  const Scene alone = subject.scene(nullptr);
+  const Recipe recipe = recipes()[1];
+  const Scene alone = recipe.scene(nullptr);
   const std::uint64_t empty = alone.statistics().bytes;
   const std::vector<Ray> rays = random_rays(alone.bounds(), 400, 84);
   const Ray& again = rays.front();
@@ -216,7 +208,7 @@ TEST_CASE("Trees that rays come by stay before others", "[intersect][budget]") {
   const std::uint64_t all = alone.statistics().bytes - empty;
 
   const auto budget = std::make_shared<PatchBudget>(std::max(2 * one, all / 2));
-  const Scene scene = subject.scene(budget);
+  const Scene scene = recipe.scene(budget);
   scene.intersect(again);
   std::uint64_t made_again = 0;
   for (const Ray& ray : rays) {

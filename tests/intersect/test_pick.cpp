@@ -3,6 +3,7 @@
 
 #include "intersect/scene.h"
 #include "tests/catch.h"
+#include "tests/intersect/refusal.h"
 #include "tests/intersect/shape_models.h"
 #include "tools/validate/dense_sampling.h"
 
@@ -43,7 +44,7 @@ std::set<int> faces_of(const std::vector<PickedFace>& picked) {
 
 /// Picks hold every face of which a sample is in the region; and of each other face that they hold, a point is near:
 /// the region, moved outward by a millionth, holds a sample of a finer net, or the face is asked alone.
-void check_against_brute_force(const Model& model, int count, int steps) {
+void check_picks_against_brute_force(const Model& model, int count, int steps) {
   const Scene scene(model.mesh, model.scheme);
   const DenseSampling samples(scene.surface(), steps);
   Random random(41);
@@ -72,14 +73,14 @@ void check_against_brute_force(const Model& model, int count, int steps) {
 }  // namespace
 
 TEST_CASE("Faces are picked where brute force finds them", "[intersect][pick]") {
-  for (const Model& model : shape_models()) check_against_brute_force(model, 30, 6);
+  for (const Model& model : shape_models()) check_picks_against_brute_force(model, 30, 6);
 }
 
 TEST_CASE("Faces are picked where brute force finds them: all models", "[intersect][pick][sweep]") {
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
     if ((scene.bounds().lower.array() > scene.bounds().upper.array()).any()) continue;
-    check_against_brute_force(model, 60, model.mesh.face_count() > 1500 ? 3 : 6);
+    check_picks_against_brute_force(model, 60, model.mesh.face_count() > 1500 ? 3 : 6);
   }
 }
 

@@ -3,17 +3,11 @@
 
 #include "tests/catch.h"
 #include "tests/random.h"
+#include "tests/random_patches.h"
 
 namespace shaolin {
 
 namespace {
-
-template <class Bezier>
-Bezier random_patch(Random& random) {
-  Bezier patch;
-  for (Vec3& point : patch.b) point = random.point();
-  return patch;
-}
 
 struct Seen {
   int pieces = 0;

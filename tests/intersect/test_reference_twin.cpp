@@ -12,7 +12,7 @@ namespace shaolin {
 namespace {
 
 /// Triangles between limit points, and how far the surface may be from them.
-struct Tessellation {
+struct TwinTessellation {
   std::vector<std::array<Vec3, 3>> triangles;
   double sagitta = 0;
 
@@ -52,7 +52,7 @@ double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
 /// further step moves them by a quarter of that where the surface is smooth, by no more than two thirds around a vertex
 /// of any valence: all further steps together by no more than twice the last. That is the sagitta.
 template <Scheme S>
-Tessellation tessellate(const ControlMesh& control, const S& scheme, int levels) {
+TwinTessellation tessellate(const ControlMesh& control, const S& scheme, int levels) {
   std::vector<std::unique_ptr<SubdivisionMesh<S>>> meshes;
   meshes.push_back(std::make_unique<SubdivisionMesh<S>>(control, scheme));
   for (int level = 0; level < levels; ++level) meshes.push_back(meshes.back()->refine());
@@ -60,7 +60,7 @@ Tessellation tessellate(const ControlMesh& control, const S& scheme, int levels)
   const std::vector<Vec3> points = limit_points(fine);
   const auto at = [&](int vertex) -> const Vec3& { return points[static_cast<std::size_t>(vertex)]; };
 
-  Tessellation result;
+  TwinTessellation result;
   for (const int f : fine.faces()) {
     if (!fine.has_limit(f)) continue;
     const std::span<const int> v = fine.face(f);
@@ -92,7 +92,7 @@ Tessellation tessellate(const ControlMesh& control, const S& scheme, int levels)
 
 /// The nearest t >= 0 at which a ray meets a triangle (Moeller, Trumbore 1997), or infinity. Edges are widened by 1e-9:
 /// here a hit twice does no harm, one lost does.
-double nearest(const Tessellation& tessellation, const Vec3& origin, const Vec3& direction) {
+double nearest(const TwinTessellation& tessellation, const Vec3& origin, const Vec3& direction) {
   constexpr double wide = 1e-9;
   double best = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : tessellation.triangles) {
@@ -109,11 +109,11 @@ double nearest(const Tessellation& tessellation, const Vec3& origin, const Vec3&
 /// What the twin says of a ray through the surface, which lies within the sagitta s of the triangles: parallel rays at
 /// 2 s to four sides bracket the answer. Where the triangles lean by an angle a, these differ from the middle one by at
 /// least 2 s tan(a) cos(45 degrees), and the surface by no more than s / cos(a) <= s + s tan(a).
-struct Verdict {
+struct TwinVerdict {
   int met = 0;
   double low = std::numeric_limits<double>::infinity(), high = 0;
 
-  Verdict(const Tessellation& tessellation, const Ray& ray) {
+  TwinVerdict(const TwinTessellation& tessellation, const Ray& ray) {
     const double s = tessellation.sagitta;
     const Vec3 direction = ray.direction.normalized(), x = direction.unitOrthogonal(), y = direction.cross(x);
     for (const Vec3& aside : {Vec3(0, 0, 0), x, Vec3(-x), y, Vec3(-y)}) {
@@ -131,13 +131,13 @@ struct Verdict {
 
 void compare(const Model& model, int levels, int count, double most_undecided) {
   CAPTURE(model.name, model.scheme);
-  const Tessellation twin =
+  const TwinTessellation twin =
       with_scheme(model.scheme, [&]<Scheme S>(const S& scheme) { return tessellate(model.mesh, scheme, levels); });
   const Scene scene(model.mesh, model.scheme);
   int undecided = 0, hits = 0;
   for (Ray ray : random_rays(scene.bounds(), count, 41)) {
     ray.direction.normalize();
-    const Verdict verdict(twin, ray);
+    const TwinVerdict verdict(twin, ray);
     const auto hit = scene.intersect(ray);
     CAPTURE(ray.origin.transpose(), ray.direction.transpose(), twin.sagitta, verdict.low, verdict.high);
     if (verdict.misses()) {

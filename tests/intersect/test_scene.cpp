@@ -1,4 +1,4 @@
-// Answers depend on the ray alone: not on threads, not on the order of rays, not on what other rays refined.
+// Hits depend on the ray alone: not on threads, not on the order of rays, not on what other rays refined.
 #include <algorithm>
 #include <thread>
 
@@ -11,18 +11,16 @@ namespace shaolin {
 
 namespace {
 
-using Answers = std::vector<std::optional<Hit>>;
-
 /// All answers, asked for in the given order.
-Answers ask(const Scene& scene, const std::vector<Ray>& rays, const std::vector<std::size_t>& order) {
-  Answers answers(rays.size());
+Hits ask(const Scene& scene, const std::vector<Ray>& rays, const std::vector<std::size_t>& order) {
+  Hits answers(rays.size());
   for (const std::size_t i : order) answers[i] = scene.intersect(rays[i]);
   return answers;
 }
 
 /// Threads that take turns, so that they meet in the same patches while those are being made.
-Answers ask_in_threads(const Scene& scene, const std::vector<Ray>& rays, std::size_t thread_count) {
-  Answers answers(rays.size());
+Hits ask_in_threads(const Scene& scene, const std::vector<Ray>& rays, std::size_t thread_count) {
+  Hits answers(rays.size());
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < thread_count; ++t)
     threads.emplace_back([&, t] {
@@ -30,12 +28,6 @@ Answers ask_in_threads(const Scene& scene, const std::vector<Ray>& rays, std::si
     });
   for (std::thread& thread : threads) thread.join();
   return answers;
-}
-
-int differences(const Answers& a, const Answers& b) {
-  int count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) count += !same(a[i], b[i]);
-  return count;
 }
 
 std::vector<std::size_t> shuffled(std::size_t count, std::uint64_t seed) {
@@ -67,7 +59,7 @@ std::vector<Ray> rays_for(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("Answers are the same for any threads, order and cache", "[intersect][scene][sweep]") {
+TEST_CASE("Hits are the same for any threads, order and cache", "[intersect][scene][sweep]") {
   for (const Model& model : all_models()) {
     if (model.mesh.face_count() > 1000) continue;  // fresh scenes for all would take minutes
     CAPTURE(model.name, model.scheme);
@@ -76,7 +68,7 @@ TEST_CASE("Answers are the same for any threads, order and cache", "[intersect][
     std::vector<std::size_t> order(rays.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
 
-    const Answers first = ask(scene, rays, order);
+    const Hits first = ask(scene, rays, order);
     REQUIRE(std::count(first.begin(), first.end(), std::nullopt) < 250);
     CHECK(differences(first, ask(scene, rays, order)) == 0);  // the cache is warm now
     const Scene other(model.mesh, model.scheme);

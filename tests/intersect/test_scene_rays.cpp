@@ -1,6 +1,7 @@
 // What a ray may be: its interval, the length of its direction, and the rays that are errors.
 #include "schemes/errors.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/models.h"
 
@@ -8,7 +9,6 @@ namespace shaolin {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// The plane z = 0 over [0, 4]^2.

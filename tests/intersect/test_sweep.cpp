@@ -2,6 +2,8 @@
 #include "intersect/scene.h"
 #include "schemes/load_plugin.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
+#include "tests/intersect/refusal.h"
 #include "tests/intersect/shape_models.h"
 #include "tests/plugins/plugin_files.h"
 #include "tools/validate/dense_sampling.h"
@@ -225,7 +227,7 @@ TEST_CASE("Moving spheres meet surfaces without polynomials", "[intersect][spher
 
 TEST_CASE("Sweeps that are none are refused, and nothing is met in an empty scene", "[intersect][sphere_sweep]") {
   const Scene scene(cube(), "catmark");
-  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity(), most = 1.7e308;
+  const double nan = std::nan(""), most = 1.7e308;
   const std::vector<std::pair<SphereSweep, std::string>> bad{
       {{{nan, 0, 0}, 1, {1, 0, 0}}, "is not finite"},
       {{{0, 0, 0}, 1, {1, infinity, 0}}, "is not finite"},

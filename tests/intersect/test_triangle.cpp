@@ -1,13 +1,12 @@
 // Ray and triangle: the plane's equation says where they meet, and no ray slips through between two triangles.
 #include "intersect/triangle.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/random.h"
 
 namespace shaolin {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TraversalRay towards(const Vec3& origin, const Vec3& target) { return TraversalRay(Ray{origin, target - origin}); }
 

@@ -3,6 +3,7 @@
 #include "schemes/builtin.h"
 #include "schemes/errors.h"
 #include "tests/catch.h"
+#include "tests/intersect/method_models.h"
 #include "tests/intersect/random_rays.h"
 #include "tests/models.h"
 
@@ -11,17 +12,6 @@ namespace shaolin {
 namespace {
 
 SceneOptions uniform(int level) { return {Method::uniform, level, {}}; }
-
-std::vector<Model> models() {
-  ControlMesh creased = with_edges(shaken(torus("catmark", 4, 6), 0.1), {{0, 1, 2.5f}, {1, 2, 10}, {2, 3, 0.5f}});
-  ControlMesh holed = sheet("loop", 4, 3);
-  holed.holes = {3, 7};
-  return {{"poles", "catmark", shaken(poles("catmark", 5), 0.1)},
-          {"poles", "loop", shaken(poles("loop", 7), 0.1)},
-          {"prism", "catmark", shaken(prism(5), 0.1)},
-          {"creased torus", "catmark", std::move(creased)},
-          {"holed sheet", "loop", shaken(std::move(holed), 0.1)}};
-}
 
 /// Relative to the model's size: how far along the ray hits of a tessellation are from the exact ones.
 double median_error(const Model& model, int level) {
@@ -40,7 +30,7 @@ double median_error(const Model& model, int level) {
 }  // namespace
 
 TEST_CASE("Facets' corners are the limit at their parameters", "[intersect][uniform]") {
-  for (const Model& model : models()) {
+  for (const Model& model : method_models()) {
     CAPTURE(model.name, model.scheme);
     with_scheme(model.scheme, [&](const auto& scheme) {
       using S = std::decay_t<decltype(scheme)>;
@@ -69,7 +59,7 @@ TEST_CASE("Facets' corners are the limit at their parameters", "[intersect][unif
 }
 
 TEST_CASE("Errors of a tessellation fall with the square of the facets' size", "[intersect][uniform]") {
-  for (const Model& model : models()) {
+  for (const Model& model : method_models()) {
     CAPTURE(model.name, model.scheme);
     const double coarse = median_error(model, 3), fine = median_error(model, 4);
     CHECK(coarse < 5e-3);
@@ -79,7 +69,7 @@ TEST_CASE("Errors of a tessellation fall with the square of the facets' size", "
 }
 
 TEST_CASE("A hit names its place: the limit there is as near as the facet is", "[intersect][uniform]") {
-  for (const Model& model : models()) {
+  for (const Model& model : method_models()) {
     CAPTURE(model.name, model.scheme);
     const Scene scene(model.mesh, model.scheme, uniform(4));
     const double size = (scene.bounds().upper - scene.bounds().lower).norm();

@@ -7,25 +7,11 @@
 #include "schemes/loop.h"
 #include "tests/property.h"
 #include "tests/random.h"
+#include "tests/random_patches.h"
 
 namespace shaolin {
 
 namespace {
-
-template <class Bezier>
-Bezier random_patch(Random& random) {
-  Bezier patch;
-  for (Vec3& p : patch.b) p = random.point();
-  return patch;
-}
-
-template <class Bezier>
-Parameter random_parameter(Random& random) {
-  for (;;) {
-    const Parameter p{random.uniform(), random.uniform()};
-    if (Bezier::DomainType::contains(p)) return p;
-  }
-}
 
 /// u^i v^j and its derivatives, per unit of u and v.
 struct Monomial {
@@ -86,8 +72,9 @@ TEST_CASE("Both patches differentiate monomials exactly", "[schemes][bezier]") {
   for (int i = 0; i <= 4; ++i)
     for (int j = 0; j <= 4; ++j)
       for (int round = 0; round < 5; ++round) {
-        if (i < 4 && j < 4) check_monomial(quad_of({i, j}), {i, j}, random_parameter<BezierQuad>(random));
-        if (i + j <= 4) check_monomial(triangle_of({i, j}), {i, j}, random_parameter<BezierTriangle>(random));
+        if (i < 4 && j < 4) check_monomial(quad_of({i, j}), {i, j}, random_parameter<BezierQuad::DomainType>(random));
+        if (i + j <= 4)
+          check_monomial(triangle_of({i, j}), {i, j}, random_parameter<BezierTriangle::DomainType>(random));
       }
 }
 
@@ -99,7 +86,7 @@ TEMPLATE_TEST_CASE("Splitting agrees with evaluation", "[schemes][bezier]", Bezi
     const auto children = patch.split();
     for (int k = 0; k < 4; ++k) {
       const TestType& child = children[static_cast<std::size_t>(k)];
-      const Parameter at = random_parameter<TestType>(random);
+      const Parameter at = random_parameter<typename TestType::DomainType>(random);
       const Parameter in_parent = D::to_parent(k, at);
       REQUIRE((child.position(at) - patch.position(in_parent)).norm() < 2e-15);
       const Derivatives a = child.derivatives(at), b = patch.derivatives(in_parent);
@@ -117,7 +104,7 @@ TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier]
   using D = typename TestType::DomainType;
   Random random(3);
   for (int round = 0; round < 2000; ++round) {
-    const Parameter p = random_parameter<TestType>(random);
+    const Parameter p = random_parameter<typename TestType::DomainType>(random);
     const ChildParameter inside = D::to_child(p);
     REQUIRE(D::contains(inside.at));
     REQUIRE((D::to_parent(inside.child, inside.at) - p).norm() <= 0x1p-53);
@@ -143,7 +130,7 @@ TEMPLATE_TEST_CASE("Positions lie in the hull of the points, derivatives in that
     for (const auto& [from, to] : TestType::v_pairs)
       high_v = std::max(high_v, TestType::degree * n.dot(patch.b[to] - patch.b[from]));
     for (int i = 0; i < 50; ++i) {
-      const Parameter at = random_parameter<TestType>(random);
+      const Parameter at = random_parameter<typename TestType::DomainType>(random);
       const Derivatives d = patch.derivatives(at);
       REQUIRE(n.dot(patch.position(at)) <= high + 1e-14);
       REQUIRE(n.dot(d.du) <= high_u + 1e-13);
@@ -156,7 +143,7 @@ TEMPLATE_TEST_CASE("The weights give position and first derivatives", "[schemes]
   Random random(5);
   for (int round = 0; round < 100; ++round) {
     const TestType patch = random_patch<TestType>(random);
-    const Parameter at = random_parameter<TestType>(random);
+    const Parameter at = random_parameter<typename TestType::DomainType>(random);
     const auto w = TestType::weights(at);
     const Derivatives d = patch.derivatives(at);
     Vec3 value = Vec3::Zero(), du = value, dv = value;

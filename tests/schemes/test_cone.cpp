@@ -19,7 +19,7 @@ ControlMesh with_cone(ControlMesh mesh) {
 }
 
 /// The first Fourier mode's eigenvalue, in the literature's closed forms.
-double subdominant(FaceKind kind, int n) {
+double first_mode_eigenvalue(FaceKind kind, int n) {
   const double c = std::cos(2 * std::numbers::pi / n);
   return kind == FaceKind::triangle ? 3.0 / 8 + c / 4
                                     : (5 + c + std::cos(std::numbers::pi / n) * std::sqrt(18 + 2 * c)) / 16;
@@ -42,7 +42,7 @@ TEMPLATE_TEST_CASE("A cone's mean mode shrinks as its first Fourier mode does", 
     std::sort(moduli.rbegin(), moduli.rend());
     CHECK(moduli[0] == Approx(1).epsilon(1e-12));
     for (const int i : {1, 2, 3})
-      CHECK(moduli[static_cast<std::size_t>(i)] == Approx(subdominant(S::face_kind, n)).epsilon(1e-7));
+      CHECK(moduli[static_cast<std::size_t>(i)] == Approx(first_mode_eigenvalue(S::face_kind, n)).epsilon(1e-7));
     for (std::size_t i = 4; i < moduli.size(); ++i) CHECK(moduli[i] < moduli[3] * (1 - 1e-4));
   }
 }
@@ -53,7 +53,7 @@ TEMPLATE_TEST_CASE("Near a conical vertex the surface is a cone", "[schemes][con
     CAPTURE(n);
     const ControlMesh mesh = poles(S::name, n);
     const auto smooth = make_limit_surface(mesh, S::name), cone = make_limit_surface(with_cone(mesh), S::name);
-    const double lambda = subdominant(S::face_kind, n);
+    const double lambda = first_mode_eigenvalue(S::face_kind, n);
     const auto slope = [](const LimitSurface& surface, double t) {
       const Vec3 away = surface.evaluate({0, 0, t, t / 2})->position - surface.evaluate({0, 0, 0, 0})->position;
       return -away.z() / away.head<2>().norm();

@@ -9,9 +9,7 @@
 #include "tests/catch.h"
 #include "tests/schemes/obj_text.h"
 
-namespace shaolin {
-
-using namespace obj_text;
+namespace shaolin::obj_text {
 
 TEST_CASE("The diagonal is that of the points' box", "[schemes][control_mesh]") {
   ControlMesh mesh;
@@ -100,4 +98,4 @@ TEST_CASE("A mesh made in memory is checked element by element", "[schemes][cont
   check_starts(message([](ControlMesh& m) { m.holes = {4}; }), "hole: face 4 ");
 }
 
-}  // namespace shaolin
+}  // namespace shaolin::obj_text

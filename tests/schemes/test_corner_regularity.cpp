@@ -9,20 +9,11 @@
 #include "schemes/scheme_surface.h"
 #include "tests/catch.h"
 #include "tests/meshes.h"
+#include "tests/schemes/stationary_patch.h"
 
 namespace shaolin {
 
 namespace {
-
-/// The patch at corner 0 of face 0, split towards that corner until its configuration repeats itself.
-template <Scheme S>
-Patch<S> stationary(const SubdivisionMesh<S>& mesh) {
-  Patch<S> patch = mesh.patch({0, 0});
-  for (int level = 0; level < 20 && patch.child(0).configuration != patch.configuration; ++level)
-    patch = patch.child(0);
-  REQUIRE(patch.child(0).configuration == patch.configuration);
-  return patch;
-}
 
 /// The least Jacobian over samples on the rings of some levels, each per unit of its own parameters and scaled by the
 /// eigenvalues' product.

@@ -12,15 +12,15 @@ namespace shaolin {
 
 namespace {
 
-constexpr int cells = 5;
-int vertex(int column, int row) { return row * (cells + 1) + column; }
-constexpr int middle_face = 2 * cells + 2;
+constexpr int strip_cells = 5;
+int vertex(int column, int row) { return row * (strip_cells + 1) + column; }
+constexpr int middle_face = 2 * strip_cells + 2;
 
 /// A shaken sheet with a crease along one of the middle face's four sides, from rim to rim.
 ControlMesh creased(int side, float sharpness) {
-  ControlMesh mesh = shaken(sheet("catmark", cells, cells), 0.3);
+  ControlMesh mesh = shaken(sheet("catmark", strip_cells, strip_cells), 0.3);
   const int line = side == 0 || side == 3 ? 2 : 3;
-  for (int i = 0; i < cells; ++i) {
+  for (int i = 0; i < strip_cells; ++i) {
     if (side % 2 == 0)
       mesh.sharp_edges.push_back({vertex(i, line), vertex(i + 1, line), sharpness});
     else

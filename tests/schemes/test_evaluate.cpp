@@ -8,18 +8,11 @@
 #include "schemes/scheme_surface.h"
 #include "tests/catch.h"
 #include "tests/models.h"
+#include "tests/random_patches.h"
 
 namespace shaolin {
 
 namespace {
-
-template <Scheme S>
-Parameter random_parameter(Random& random) {
-  for (;;) {
-    const Parameter p{random.uniform(), random.uniform()};
-    if (Domain<S::face_kind>::contains(p)) return p;
-  }
-}
 
 /// Calls use(surface, face, sub) for up to about `most` patches of every model of the scheme.
 template <Scheme S, class Use>
@@ -67,7 +60,7 @@ TEMPLATE_TEST_CASE("To refine and then evaluate is to evaluate", "[schemes][eval
     const Patch<S> patch = surface.patch(face, sub);
     const double diagonal = surface.control_mesh().diagonal();
     for (int k = 0; k < 4; ++k) {
-      const Parameter at = random_parameter<S>(random);
+      const Parameter at = random_parameter<Domain<S::face_kind>>(random);
       const LimitSample fine = evaluate(patch.child(k), at), coarse = evaluate(patch, D::to_parent(k, at));
       const double s = D::scale(k);
       CAPTURE(sub, k, at.x(), at.y());

@@ -7,6 +7,7 @@
 #include "schemes/loop.h"
 #include "tests/catch.h"
 #include "tests/schemes/local_matrix.h"
+#include "tests/schemes/mask_sum.h"
 
 namespace shaolin {
 
@@ -32,13 +33,6 @@ Eigen::RowVectorXd limit_row(const LocalMatrix& local, int n) {
 double subdominant(FaceKind kind, double angle) {
   const double c = std::cos(angle);
   return kind == FaceKind::triangle ? 3.0 / 8 + c / 4 : (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 16;
-}
-
-double sum(const RingMask& mask) {
-  double total = mask.vertex;
-  for (const double w : mask.edges) total += w;
-  for (const double w : mask.diagonals) total += w;
-  return total;
 }
 
 double magnitude(const RingMask& mask) {

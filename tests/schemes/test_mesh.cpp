@@ -34,14 +34,14 @@ int corner_count(const Mesh& mesh) {
   return count;
 }
 
-struct Shape {
+struct KnownTopology {
   ControlMesh mesh;
   int euler;  ///< V - E + F
 };
 
 template <Scheme S>
-std::vector<Shape> shapes() {
-  std::vector<Shape> result{{poles(S::name, 5), 2}, {torus(S::name, 4, 5), 0}, {sheet(S::name, 2, 3), 1}};
+std::vector<KnownTopology> known_topologies() {
+  std::vector<KnownTopology> result{{poles(S::name, 5), 2}, {torus(S::name, 4, 5), 0}, {sheet(S::name, 2, 3), 1}};
   if (S::face_kind == FaceKind::quad) result.push_back({prism(5), 2});
   return result;
 }
@@ -60,7 +60,7 @@ TEST_CASE("A ring on the boundary runs counter-clockwise from the boundary edge"
 
 TEMPLATE_TEST_CASE("Every ring is the same from every corner, a closed one turned", "[schemes][mesh]", Loop,
                    CatmullClark) {
-  for (const Shape& shape : shapes<TestType>()) {
+  for (const KnownTopology& shape : known_topologies<TestType>()) {
     const SubdivisionMesh<TestType> mesh(shape.mesh);
     for (const int f : mesh.faces())
       for (int place = 0; place < mesh.face_size(f); ++place) {
@@ -101,7 +101,7 @@ TEST_CASE("Around an interior vertex of a flat sheet each spoke lies left of the
 }
 
 TEMPLATE_TEST_CASE("Iterators visit every element once", "[schemes][mesh]", Loop, CatmullClark) {
-  for (const Shape& shape : shapes<TestType>()) {
+  for (const KnownTopology& shape : known_topologies<TestType>()) {
     const SubdivisionMesh<TestType> mesh(shape.mesh);
     CHECK(mesh.vertex_count() - mesh.edge_count() + mesh.face_count() == shape.euler);
     int next = 0;
@@ -155,7 +155,7 @@ TEST_CASE("A neighbourhood holds the rings of the face's corners in order, then 
 TEMPLATE_TEST_CASE("Refinement has the counts of Euler's formula, level by level", "[schemes][mesh]", Loop,
                    CatmullClark) {
   constexpr bool quads = TestType::face_kind == FaceKind::quad;
-  for (const Shape& shape : shapes<TestType>()) {
+  for (const KnownTopology& shape : known_topologies<TestType>()) {
     const SubdivisionMesh<TestType> mesh(shape.mesh);
     const auto first = mesh.refine(), second = first->refine();
     const std::vector<const SubdivisionMesh<TestType>*> levels{&mesh, first.get(), second.get()};
@@ -173,7 +173,7 @@ TEMPLATE_TEST_CASE("Refinement has the counts of Euler's formula, level by level
 
 TEMPLATE_TEST_CASE("Child k of a face holds its corner k in the parent's orientation", "[schemes][mesh]", Loop,
                    CatmullClark) {
-  for (const Shape& shape : shapes<TestType>()) {
+  for (const KnownTopology& shape : known_topologies<TestType>()) {
     const SubdivisionMesh<TestType> mesh(shape.mesh);
     const auto fine = mesh.refine();
     std::set<int> children;

@@ -14,9 +14,7 @@
 #include "tests/catch.h"
 #include "tests/schemes/obj_text.h"
 
-namespace shaolin {
-
-using namespace obj_text;
+namespace shaolin::obj_text {
 namespace {
 
 namespace fs = std::filesystem;
@@ -289,4 +287,4 @@ TEST_CASE("The shapes beside the checkout load, with the counts that a line coun
   CHECK(files > 0);
 }
 
-}  // namespace shaolin
+}  // namespace shaolin::obj_text

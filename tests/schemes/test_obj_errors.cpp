@@ -7,9 +7,7 @@
 #include "tests/catch.h"
 #include "tests/schemes/obj_text.h"
 
-namespace shaolin {
-
-using namespace obj_text;
+namespace shaolin::obj_text {
 
 TEST_CASE("Lines are counted through continued lines and comments", "[schemes][obj]") {
   check_error("v 0 0 0\nv 1 \\\n 0 \\\n 0\n# c \\\nv 0 x 0\n", 6, {"'x'"});
@@ -145,4 +143,4 @@ TEST_CASE("Files that cannot be read or are no text are errors that name the fil
   std::filesystem::remove_all(folder);
 }
 
-}  // namespace shaolin
+}  // namespace shaolin::obj_text

@@ -9,6 +9,7 @@
 #include "schemes/plugin.h"
 #include "tests/models.h"
 #include "tests/plugins/plugin_files.h"
+#include "tests/schemes/mask_sum.h"
 
 namespace shaolin {
 
@@ -18,11 +19,6 @@ using test::Fault;
 using test::Folder;
 
 namespace {
-
-double sum(const RingMask& mask) {
-  const double edges = std::accumulate(mask.edges.begin(), mask.edges.end(), 0.0);
-  return mask.vertex + std::accumulate(mask.diagonals.begin(), mask.diagonals.end(), edges);
-}
 
 std::string refusal(const std::filesystem::path& file) {
   try {

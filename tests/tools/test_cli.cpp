@@ -4,6 +4,7 @@
 #include "schemes/vec3.h"
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
+#include "tests/tools/cube_text.h"
 
 namespace shaolin::test {
 namespace {
@@ -12,10 +13,7 @@ const std::string hit_header = "ray,hit,t,face,sub,u,v,px,py,pz,nx,ny,nz,certifi
 const std::string eval_header =
     "face,sub,u,v,px,py,pz,nx,ny,nz,dux,duy,duz,dvx,dvy,dvz,duux,duuy,duuz,duvx,duvy,duvz,dvvx,dvvy,dvvz";
 
-const std::string cube =
-    "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
-    "f 1 2 3 4\nf 6 5 8 7\nf 2 6 7 3\nf 5 1 4 8\nf 4 3 7 8\nf 5 6 2 1\n";
-const std::string tetrahedron = "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const std::string tetrahedron_text = "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 double number(const std::string& field) {
   std::size_t used = 0;
@@ -99,7 +97,8 @@ TEST_CASE("usage errors exit with 2 and write nothing", "[tools][cli]") {
 
 TEST_CASE("an output that is another output's file, or an input's, is a usage error", "[tools][cli]") {
   const Folder folder;
-  const std::string model = folder.write("cube.obj", cube), image = folder / "image", dotted = folder / "./x/../image";
+  const std::string model = folder.write("cube.obj", cube_text), image = folder / "image",
+                    dotted = folder / "./x/../image";
   const std::string rays = folder.write("rays.csv", "0,0,5,0,0,-1\n"), params = folder.write("params.csv", "0,0,0,0\n");
   std::filesystem::create_symlink("rays.csv", folder / "link.csv");
   const auto before = folder.list();
@@ -120,7 +119,7 @@ TEST_CASE("an output that is another output's file, or an input's, is a usage er
     CHECK(outcome.text.find("is the file of") != std::string::npos);
     CHECK(folder.list() == before);
   }
-  CHECK(read_file(model) == cube);
+  CHECK(read_file(model) == cube_text);
   CHECK(folder.run({"render", model, "--size", "8x8", "-o", "/dev/null", "--stats", "/dev/null"}).status == 0);
 }
 
@@ -139,9 +138,9 @@ TEST_CASE("files that are missing or unusable exit with 3", "[tools][cli]") {
   check_refused(folder, {"render", torus, "-o", folder / "out.exr", "--png", nowhere, "--size", "8x8"}, nowhere);
   check_refused(folder, {"query", torus, "--rays", rays, "-o", nowhere}, nowhere);
 
-  const std::string broken = folder.write("broken.obj", cube + "f 1 2 99\n");
+  const std::string broken = folder.write("broken.obj", cube_text + "f 1 2 99\n");
   check_refused(folder, {"render", broken, "-o", folder / "out.exr"}, broken + ":15:");
-  const std::string foreign = folder.write("foreign.obj", "t scheme 0/0/1 doo-sabin\n" + cube);
+  const std::string foreign = folder.write("foreign.obj", "t scheme 0/0/1 doo-sabin\n" + cube_text);
   check_refused(folder, {"info", foreign}, foreign + ":1: unknown scheme 'doo-sabin'");
   const std::string mixed = folder.write("mixed.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 4\n");
   for (const std::string scheme : {"loop", "warren", "linear"})
@@ -181,7 +180,8 @@ TEST_CASE("a failing query leaves an older output as it was", "[tools][cli]") {
 
 TEST_CASE("eval refuses bad rows with file and line", "[tools][cli]") {
   const Folder folder;
-  const std::string quads = folder.write("cube.obj", cube), triangles = folder.write("tetrahedron.obj", tetrahedron);
+  const std::string quads = folder.write("cube.obj", cube_text),
+                    triangles = folder.write("tetrahedron.obj", tetrahedron_text);
   const std::string output = folder / "out.csv";
   const auto check = [&](const std::string& model, const std::string& row) {
     const std::string params = folder.write("params.csv", "face,sub,u,v\n0,0,0.25,0.5\n" + row + "\n");
@@ -388,7 +388,7 @@ TEST_CASE("eval at the place of a hit gives the hit", "[tools][cli]") {
 
 TEST_CASE("eval leaves fields empty where there is nothing to say", "[tools][cli]") {
   const Folder folder;
-  const std::string model = folder.write("hole.obj", cube + "t hole 1/0/0 2\n");
+  const std::string model = folder.write("hole.obj", cube_text + "t hole 1/0/0 2\n");
   const std::string params = folder.write("params.csv", "0,0,0.5,0.25\n2,0,0.5,0.25\n0,0,0,0\n");
   const std::string output = folder / "out.csv";
   REQUIRE(folder.run({"eval", model, "--params", params, "-o", output}).status == 0);
@@ -443,12 +443,12 @@ TEST_CASE("derivatives are numbers as near to a corner as a double can be", "[to
     REQUIRE(folder.run({"eval", model, "--params", params, "-o", output}).status == 0);
     return read_rows(output);
   };
-  const auto rows = rows_of(folder.write("cube.obj", cube));
+  const auto rows = rows_of(folder.write("cube.obj", cube_text));
   for (std::size_t row = 1; row < rows.size(); ++row)
     for (const std::string& field : rows[row]) CHECK(is_number(field));
 
   // 1e142 times as large as the face's sides, second derivatives are too large for any double.
-  std::string large = cube;
+  std::string large = cube_text;
   for (std::size_t at = 0; (at = large.find("1 ", at)) < large.find('f'); at += 2) large.insert(at + 1, "e300");
   for (std::size_t at = 0; (at = large.find("1\n", at)) < large.find('f'); at += 2) large.insert(at + 1, "e300");
   const auto emptied = rows_of(folder.write("large.obj", large));
@@ -460,8 +460,9 @@ TEST_CASE("derivatives are numbers as near to a corner as a double can be", "[to
 
 TEST_CASE("info counts what is in the file", "[tools][cli]") {
   const Folder folder;
-  const std::string model = folder.write(
-      "model.obj", "v 5 5 5\n" + tetrahedron.substr(0, tetrahedron.find('f')) + "f 2 4 3\nf 2 3 5\nf 2 5 4\n");
+  const std::string model =
+      folder.write("model.obj", "v 5 5 5\n" + tetrahedron_text.substr(0, tetrahedron_text.find('f')) +
+                                    "f 2 4 3\nf 2 3 5\nf 2 5 4\n");
   const Outcome outcome = folder.run({"info", model});
   REQUIRE(outcome.status == 0);
   std::set<std::string> lines;  // with single blanks

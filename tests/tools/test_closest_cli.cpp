@@ -3,20 +3,18 @@
 
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
+#include "tests/tools/cube_text.h"
 
 namespace shaolin::test {
 namespace {
 
 const std::string header = "point,found,distance,face,sub,u,v,px,py,pz,nx,ny,nz";
-const std::string cube =
-    "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
-    "f 1 2 3 4\nf 6 5 8 7\nf 2 6 7 3\nf 5 1 4 8\nf 4 3 7 8\nf 5 6 2 1\n";
 
 }  // namespace
 
 TEST_CASE("closest writes a row per point, from a file or from the command line", "[tools][cli][closest]") {
   const Folder folder;
-  const std::string model = folder.write("cube.obj", cube), out = folder / "out.csv", again = folder / "again.csv";
+  const std::string model = folder.write("cube.obj", cube_text), out = folder / "out.csv", again = folder / "again.csv";
   const std::string points = folder.write("points.csv", "x,y,z\n0.25,0.5,3\n-2,0.1,-0.2\n9,0,0\n");
   const Outcome outcome =
       folder.run({"closest", model, "--scheme", "bilinear", "--points", points, "--radius", "2.5", "-o", out});
@@ -42,7 +40,7 @@ TEST_CASE("closest writes a row per point, from a file or from the command line"
 
 TEST_CASE("closest names the instance of a scene", "[tools][cli][closest][scenes]") {
   const Folder folder;
-  folder.write("cube.obj", cube);
+  folder.write("cube.obj", cube_text);
   const std::string out = folder / "out.csv",
                     scene = folder.write("scene.json",
                                          R"({"objects": {"box": {"model": "cube.obj", "scheme": "bilinear"}},
@@ -57,7 +55,7 @@ TEST_CASE("closest names the instance of a scene", "[tools][cli][closest][scenes
 
 TEST_CASE("closest refuses bad points with their place", "[tools][cli][closest]") {
   const Folder folder;
-  const std::string model = folder.write("cube.obj", cube), out = folder / "out.csv";
+  const std::string model = folder.write("cube.obj", cube_text), out = folder / "out.csv";
   for (const std::string row : {"1,2", "1,2,3,4", "1,2,up", "1,,3", "1,nan,3", "1,2,inf"}) {
     const std::string points = folder.write("points.csv", "x,y,z\n1,2,3\n" + row + "\n");
     const Outcome outcome = folder.run({"closest", model, "--points", points, "-o", out});

@@ -12,10 +12,12 @@
 
 #include "schemes/errors.h"
 #include "tests/catch.h"
+#include "tests/infinity.h"
+#include "tests/tools/cli_run.h"
 #include "tools/cli/csv.h"
 #include "tools/cli/output_file.h"
 
-namespace shaolin {
+namespace shaolin::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,32 +58,6 @@ void check_error(const std::string& text, int line, const std::vector<std::strin
   for (const std::string& word : words) CHECK(message.find(word) != std::string::npos);
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A folder of its own, empty at first and removed at the end.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / "shaolin_test_csv") {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  const fs::path& path() const { return path_; }
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> list;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path_)) list.push_back(entry.path().filename());
-    return list;
-  }
-
- private:
-  fs::path path_;
-};
-
 }  // namespace
 
 TEST_CASE("Rows are read with or without a header", "[tools][csv]") {
@@ -115,7 +91,6 @@ TEST_CASE("Blank lines, CRLF, blanks, a byte order mark and a missing last newli
 TEST_CASE("Infinities and NaN are numbers, with a line for the caller to report", "[tools][csv]") {
   const CsvTable table = parse("nan,1\ninf,-inf\n1e400,Infinity\n");
   REQUIRE(table.row_count() == 3);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   CHECK(std::isnan(table.row(0)[0]));
   CHECK(row(table, 1) == std::vector<double>{infinity, -infinity});
   CHECK(row(table, 2) == std::vector<double>{infinity, infinity});
@@ -202,23 +177,23 @@ TEST_CASE("Numbers are written as printf's %.17g, and fields may be empty", "[to
   writer.empty().field(9007199254740993LL).empty().field(0).end_row();
   expected += ",9007199254740993,,0\n";
   writer.commit();
-  CHECK(content(folder / "out.csv") == expected);
-  CHECK(folder.names() == std::vector<std::string>{"out.csv"});
+  CHECK(read_file(folder / "out.csv") == expected);
+  CHECK(folder.list() == std::set<std::string>{"out.csv"});
 }
 
 TEST_CASE("A table that is not committed leaves nothing behind, and an older file as it was", "[tools][csv]") {
   const Folder folder;
   { CsvWriter(folder / "new.csv", "a").field(1).end_row(); }
-  CHECK(folder.names().empty());
+  CHECK(folder.list().empty());
 
   std::ofstream(folder / "old.csv") << "old";
   {
     CsvWriter writer(folder / "old.csv", "a");
     writer.field(1).end_row();
-    CHECK(content(folder / "old.csv") == "old");
+    CHECK(read_file(folder / "old.csv") == "old");
   }
-  CHECK(content(folder / "old.csv") == "old");
-  CHECK(folder.names() == std::vector<std::string>{"old.csv"});
+  CHECK(read_file(folder / "old.csv") == "old");
+  CHECK(folder.list() == std::set<std::string>{"old.csv"});
 }
 
 TEST_CASE("An output file keeps the extension, stays apart from others and takes the target's place", "[tools][csv]") {
@@ -231,10 +206,10 @@ TEST_CASE("An output file keeps the extension, stays apart from others and takes
   std::ofstream(first.path()) << "first";
   std::ofstream(second.path()) << "second";
   first.commit();
-  CHECK(content(folder / "image.exr") == "first");
+  CHECK(read_file(folder / "image.exr") == "first");
   second.commit();
-  CHECK(content(folder / "image.exr") == "second");
-  CHECK(folder.names() == std::vector<std::string>{"image.exr"});
+  CHECK(read_file(folder / "image.exr") == "second");
+  CHECK(folder.list() == std::set<std::string>{"image.exr"});
 }
 
 TEST_CASE("Output through a symbolic link replaces the file that it leads to", "[tools][csv]") {
@@ -245,7 +220,7 @@ TEST_CASE("Output through a symbolic link replaces the file that it leads to", "
   CsvWriter writer(folder / "link.csv", "a");
   writer.commit();
   CHECK(fs::is_symlink(folder / "link.csv"));
-  CHECK(content(folder / "inner/real.csv") == "a\n");
+  CHECK(read_file(folder / "inner/real.csv") == "a\n");
 }
 
 TEST_CASE("A device is written to, not replaced", "[tools][csv]") {
@@ -264,7 +239,7 @@ TEST_CASE("Targets that cannot be written are errors that name them", "[tools][c
   check_contains(message(folder / "x/"), "expected the name of a file");
   check_contains(message(""), "expected the name of a file");
   check_contains(message(folder / (std::string(300, 'a') + ".csv")), "cannot be written");
-  CHECK(folder.names().empty());
+  CHECK(folder.list().empty());
 }
 
 TEST_CASE("A full disk is an error, not a short file", "[tools][csv]") {
@@ -273,4 +248,4 @@ TEST_CASE("A full disk is an error, not a short file", "[tools][csv]") {
   check_starts(message_of([&] { writer.commit(); }), "/dev/full: cannot be written");
 }
 
-}  // namespace shaolin
+}  // namespace shaolin::test

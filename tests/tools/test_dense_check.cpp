@@ -3,16 +3,14 @@
 #include <limits>
 
 #include "tests/catch.h"
+#include "tests/infinity.h"
 #include "tests/tools/oracle_models.h"
 #include "tools/validate/dense_check.h"
 #include "tools/validate/opensubdiv_oracle.h"
 
+namespace shaolin::oracle_test {
+
 namespace {
-
-using namespace shaolin;
-using namespace shaolin::oracle_test;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double distance_from_line(const Vec3& p, const Vec3& origin, const Vec3& direction) {
   return (p - origin).cross(direction.normalized()).norm();
@@ -65,3 +63,5 @@ TEST_CASE("the dense check tells grazing from transversal hits", "[tools][oracle
   CHECK(is_transversal(hit, 7 * sample.normal));
   CHECK_FALSE(is_transversal(hit, 7 * sample.derivatives->du));
 }
+
+}  // namespace shaolin::oracle_test

@@ -9,8 +9,8 @@
 namespace shaolin::test {
 namespace {
 
-struct Subject {
-  explicit Subject(const std::string& file)
+struct RefereedModel {
+  explicit RefereedModel(const std::string& file)
       : mesh(read_obj(data_file(file))),
         scheme(default_scheme(mesh)),
         scene(mesh, scheme),
@@ -53,7 +53,7 @@ Intersector spoiled(const Scene& scene, Spoil spoil) {
 TEST_CASE("Exact arithmetic confirms certificates", "[tools][exact]") {
   for (const std::string file : {"torus.obj", "cube_creases.obj", "tetrahedron.obj", "sail.obj"}) {
     CAPTURE(file);
-    const Subject subject(file);
+    const RefereedModel subject(file);
     const ExactHitFigures figures = subject.hits(Intersector::of(subject.scene));
     for (const Disagreement& d : figures.disagreements) UNSCOPED_INFO(d.what << ' ' << exact(*d.ray) << ' ' << d.error);
     CHECK(figures.disagreements.empty());
@@ -66,7 +66,7 @@ TEST_CASE("Exact arithmetic confirms certificates", "[tools][exact]") {
 }
 
 TEST_CASE("Exact arithmetic catches false certificates", "[tools][exact]") {
-  const Subject subject("cube_creases.obj");
+  const RefereedModel subject("cube_creases.obj");
   const std::size_t certified = subject.hits(Intersector::of(subject.scene)).certified;
   const auto caught = [&](const auto& spoil) {
     return subject.hits(spoiled(subject.scene, spoil)).disagreements.size();
@@ -85,7 +85,7 @@ TEST_CASE("Exact arithmetic catches false certificates", "[tools][exact]") {
 TEST_CASE("Exact arithmetic confirms decisions about triangles, and catches wrong ones", "[tools][exact]") {
   for (const std::string file : {"torus.obj", "cube_creases.obj", "tetrahedron.obj", "sail.obj"}) {
     CAPTURE(file);
-    const Subject subject(file);
+    const RefereedModel subject(file);
     const ExactTriangleFigures figures = subject.decisions(Intersector::of(subject.uniform));
     for (const Disagreement& d : figures.disagreements)
       UNSCOPED_INFO(d.what << ' ' << exact(*d.ray) << ' ' << d.detail);

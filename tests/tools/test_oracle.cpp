@@ -16,10 +16,9 @@
 #include "tests/tools/oracle_models.h"
 #include "tools/validate/opensubdiv_oracle.h"
 
-namespace {
+namespace shaolin::oracle_test {
 
-using namespace shaolin;
-using namespace shaolin::oracle_test;
+namespace {
 namespace Far = OpenSubdiv::Far;
 namespace Bfr = OpenSubdiv::Bfr;
 namespace Sdc = OpenSubdiv::Sdc;
@@ -371,3 +370,5 @@ TEST_CASE("the oracle is exact on the shapes in SHAOLIN_SHAPES", "[tools][oracle
     if (model.mesh.face_count() << (2 * levels) < 400000) CHECK(worst_against_brute_force(model, levels, {}) <= 1e-12);
   }
 }
+
+}  // namespace shaolin::oracle_test

@@ -9,7 +9,7 @@
 namespace shaolin::test {
 namespace {
 
-const std::string plate = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n";
+const std::string plate_text = "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n";
 
 /// A path as a JSON string.
 std::string json(const std::filesystem::path& path) { return nlohmann::json(path.string()).dump(); }
@@ -53,7 +53,7 @@ TEST_CASE("A scene of one instance is the model's picture", "[tools][cli][scenes
 // lies in the wall, so that the fill light is mirrored, too.
 TEST_CASE("What a mirror shows is the mirrored world", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   const auto scene = [&](const std::string& name, bool mirror) {
     const std::string side = mirror ? "1" : "-1";
     const std::string wall =
@@ -91,7 +91,7 @@ TEST_CASE("What a mirror shows is the mirrored world", "[tools][cli][scenes]") {
 
 TEST_CASE("Two mirrors face to face end after four reflections", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   // Looking down at a mirror with another above the eye, at heights 0 and 4.
   const auto picture = [&](const std::string& mirror) {
     const std::string file =
@@ -131,7 +131,7 @@ TEST_CASE("A scene's pixels do not depend on the number of threads", "[tools][cl
 
 TEST_CASE("Materials, lights and background colour the picture", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   const std::string head =
       R"({"objects": {"plate": {"model": "plate.obj"}}, "materials": {"m": {"colour": [0.5, 0, 0]}},
     "camera": {"eye": [0, 5, 0], "target": [0, 0, 0], "fov": 40}, )";
@@ -166,7 +166,7 @@ TEST_CASE("Materials, lights and background colour the picture", "[tools][cli][s
 
 TEST_CASE("query names the instance of a scene's hits", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   const std::string scene = folder.write("scene.json", R"({"objects": {
     "plate": {"model": "plate.obj"},
     "row": {"instances": [{"object": "plate"}, {"object": "plate", "transform": {"translate": [3, 0, 0]}}]}},
@@ -195,7 +195,7 @@ TEST_CASE("query names the instance of a scene's hits", "[tools][cli][scenes]") 
 
 TEST_CASE("info counts a scene's faces once and over its instances", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   const std::string scene =
       folder.write("scene.json", R"({"objects": {"plate": {"model": "plate.obj"}, "torus": {"model": )" +
                                      json(data_file("torus.obj")) +
@@ -221,7 +221,7 @@ TEST_CASE("info counts a scene's faces once and over its instances", "[tools][cl
 
 TEST_CASE("--scheme is for all objects of a scene", "[tools][cli][scenes]") {
   const Folder folder;
-  folder.write("plate.obj", plate);
+  folder.write("plate.obj", plate_text);
   const std::string scene = folder.write(
       "scene.json", R"({"scheme": "catmark", "objects": {"plate": {"model": "plate.obj", "scheme": "catmark"}},
     "instances": [{"object": "plate"}]})");

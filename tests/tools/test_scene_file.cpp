@@ -5,16 +5,13 @@
 #include "schemes/errors.h"
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
+#include "tests/tools/cube_text.h"
 #include "tools/cli/json_text.h"
 #include "tools/cli/scene_file.h"
 #include "tools/cli/stage.h"
 
 namespace shaolin::test {
 namespace {
-
-const std::string cube =
-    "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
-    "f 1 2 3 4\nf 6 5 8 7\nf 2 6 7 3\nf 5 1 4 8\nf 4 3 7 8\nf 5 6 2 1\n";
 
 /// A scene whose members are these, each a key with its value.
 std::string scene_of(const std::string& instances, const std::string& more = "") {
@@ -25,7 +22,7 @@ std::string scene_of(const std::string& instances, const std::string& more = "")
 /// What reading says of a scene's text, models included; without the file's name.
 std::string complaint(const std::string& text) {
   const Folder folder;
-  folder.write("cube.obj", cube);
+  folder.write("cube.obj", cube_text);
   const std::string file = folder.write("scene.json", text);
   try {
     Stage stage = load_stage({file, {}, {}});

@@ -3,19 +3,17 @@
 
 #include "tests/catch.h"
 #include "tests/tools/cli_run.h"
+#include "tests/tools/cube_text.h"
 
 namespace shaolin::test {
 namespace {
 
-const std::string cube =
-    "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n"
-    "f 1 2 3 4\nf 6 5 8 7\nf 2 6 7 3\nf 5 1 4 8\nf 4 3 7 8\nf 5 6 2 1\n";
 const std::string place = "face,sub,u,v,px,py,pz,nx,ny,nz";
 
 /// A folder with the cube, which stays one under the bilinear scheme, and a scene with a second one at (9, 0, 0).
 struct Files {
   Folder folder;
-  std::string model = folder.write("cube.obj", cube), out = folder / "out.csv", again = folder / "again.csv";
+  std::string model = folder.write("cube.obj", cube_text), out = folder / "out.csv", again = folder / "again.csv";
   std::string scene = folder.write("scene.json",
                                    R"({"objects": {"box": {"model": "cube.obj", "scheme": "bilinear"}},
         "instances": [{"object": "box"}, {"object": "box", "transform": {"scale": [1, 2, 1], "translate": [9, 0, 0]}}]})");

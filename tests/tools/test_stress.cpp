@@ -12,10 +12,15 @@
 #include "tools/stress/report.h"
 #include "tools/stress/run.h"
 
-namespace shaolin::test {
-namespace {
+namespace shaolin::stress {
 
-using namespace stress;
+using test::data_file;
+using test::Folder;
+using test::Outcome;
+using test::read_file;
+using test::read_rows;
+
+namespace {
 
 /// About one ray in eight, by its own bits: whatever the order of rays.
 bool is_chosen(const Ray& ray) {
@@ -123,17 +128,17 @@ TEST_CASE("stress counts hits that are lost among all hits", "[tools][stress]") 
 }
 
 TEST_CASE("stress counts ghosts: off the surface, off the ray, elsewhere in parameters", "[tools][stress]") {
-  const std::vector<std::function<void(Hit&)>> faults{
+  const std::vector<std::function<void(Hit&)>> spoilers{
       [](Hit& hit) { hit.sample.position.x() += 1e-9 * std::max(1.0, hit.sample.position.norm()); },
       [](Hit& hit) { hit.t *= 1 - 1e-9; }, [](Hit& hit) { hit.at.u = 0.5 * hit.at.u + 1e-7; },
       [](Hit& hit) { hit.at.face = -1; }, [](Hit& hit) { hit.sample.normal *= 1.01; }};
-  for (std::size_t i = 0; i < faults.size(); ++i) {
+  for (std::size_t i = 0; i < spoilers.size(); ++i) {
     CAPTURE(i);
-    const auto spoil = [&](std::optional<Hit>& hit) { faults[i](*hit); };
+    const auto spoil = [&](std::optional<Hit>& hit) { spoilers[i](*hit); };
     const Tally closest = run_with(with_closest(spoil), {"vertices", "lines"}).total();
     CHECK(closest.count(Fault::ghost) > 20);
     CHECK(closest.count(Fault::duplicate) == 0);
-    const auto spoil_all = [&](std::vector<Crossing>& all) { faults[i](all.back().hit); };
+    const auto spoil_all = [&](std::vector<Crossing>& all) { spoilers[i](all.back().hit); };
     CHECK(run_with(with_all(spoil_all), {"vertices", "lines"}).total().count(Fault::ghost) > 20);
   }
 }
@@ -267,4 +272,4 @@ TEST_CASE("The subcommand stress: models, families, reports, exit statuses", "[t
   CHECK(folder.run({"stress", folder / "missing.obj"}).status == 3);
 }
 
-}  // namespace shaolin::test
+}  // namespace shaolin::stress

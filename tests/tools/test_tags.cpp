@@ -33,7 +33,7 @@ double worst_difference(const ControlMesh& mesh, const std::string& scheme, std:
 }
 
 /// Sharpness between 0 and 1, where rules change, and between 1 and 4.
-float some_sharpness(Random& random) {
+float telling_sharpness(Random& random) {
   const auto values = {0.25f, 0.7f, 1.0f, 1.25f, 1.9f, 2.5f, 3.3f, 10.0f};
   return *(values.begin() + random.index(static_cast<int>(values.size())));
 }
@@ -44,9 +44,9 @@ ControlMesh randomly_tagged(ControlMesh mesh, CreaseMethod method, Random& rando
     const auto corners = mesh.face(f);
     const auto n = corners.size();
     const auto i = static_cast<std::size_t>(random.index(static_cast<int>(n)));
-    if (random.index(2)) mesh.sharp_edges.push_back({corners[i], corners[(i + 1) % n], some_sharpness(random)});
+    if (random.index(2)) mesh.sharp_edges.push_back({corners[i], corners[(i + 1) % n], telling_sharpness(random)});
   }
-  if (random.index(2)) mesh.sharp_vertices.push_back({0, some_sharpness(random)});
+  if (random.index(2)) mesh.sharp_vertices.push_back({0, telling_sharpness(random)});
   return mesh;
 }
 

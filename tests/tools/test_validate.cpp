@@ -16,8 +16,8 @@ namespace shaolin::test {
 namespace {
 
 /// A model with everything that it is held against.
-struct Subject {
-  explicit Subject(const std::string& file)
+struct ValidatedModel {
+  explicit ValidatedModel(const std::string& file)
       : mesh(read_obj(data_file(file))),
         oracle(mesh, default_scheme(mesh)),
         scene(mesh, default_scheme(mesh)),
@@ -48,7 +48,7 @@ std::size_t count_of(const std::vector<Disagreement>& disagreements, const std::
 
 /// Replaces the evaluator by one whose samples `spoil` has changed.
 template <typename Spoil>
-void spoil_samples(Subject& subject, Spoil spoil) {
+void spoil_samples(ValidatedModel& subject, Spoil spoil) {
   subject.evaluator.evaluate = [sound = subject.evaluator.evaluate, spoil](const SurfaceParameter& at) {
     std::optional<LimitSample> sample = sound(at);
     if (sample) spoil(*sample);
@@ -58,7 +58,7 @@ void spoil_samples(Subject& subject, Spoil spoil) {
 
 /// Replaces the closest hits by what `spoil` makes of them: a changed hit, or none. Any-hit follows.
 template <typename Spoil>
-void spoil_hits(Subject& subject, Spoil spoil) {
+void spoil_hits(ValidatedModel& subject, Spoil spoil) {
   subject.intersector.intersect = [sound = subject.intersector.intersect, spoil](const Ray& ray) {
     std::optional<Hit> hit = sound(ray);
     return hit ? spoil(ray, *hit) : hit;
@@ -143,7 +143,7 @@ TEST_CASE("validate's figures depend on the seed alone", "[tools][validate]") {
 }
 
 TEST_CASE("a wrong position is caught", "[tools][validate]") {
-  Subject subject("cube_creases.obj");
+  ValidatedModel subject("cube_creases.obj");
   REQUIRE(subject.evaluations().passed());
   const double diagonal = subject.oracle.diagonal();
   SECTION("off by 1e-9 of the diagonal") {
@@ -168,7 +168,7 @@ TEST_CASE("a wrong position is caught", "[tools][validate]") {
 }
 
 TEST_CASE("a wrong normal is caught", "[tools][validate]") {
-  Subject subject("tetrahedron.obj");
+  ValidatedModel subject("tetrahedron.obj");
   SECTION("turned by 1e-6 rad") {
     spoil_samples(subject, [](LimitSample& sample) {
       sample.normal = (sample.normal + 1e-6 * sample.normal.unitOrthogonal()).normalized();
@@ -189,7 +189,7 @@ TEST_CASE("a wrong normal is caught", "[tools][validate]") {
 }
 
 TEST_CASE("wrong derivatives are caught", "[tools][validate]") {
-  Subject subject("torus.obj");
+  ValidatedModel subject("torus.obj");
   SECTION("per another unit of u") {
     spoil_samples(subject, [](LimitSample& sample) { sample.derivatives->du *= 2; });
   }
@@ -205,7 +205,7 @@ TEST_CASE("wrong derivatives are caught", "[tools][validate]") {
 }
 
 TEST_CASE("a face with a limit surface too many or too few is caught", "[tools][validate]") {
-  Subject subject("hole.obj");
+  ValidatedModel subject("hole.obj");
   const EvaluationReport sound = subject.evaluations();
   REQUIRE(sound.passed());
   REQUIRE(sound.faces_without_limit == 1);
@@ -230,7 +230,7 @@ TEST_CASE("a face with a limit surface too many or too few is caught", "[tools][
 }
 
 TEST_CASE("lost hits are caught", "[tools][validate]") {
-  Subject subject("torus.obj");
+  ValidatedModel subject("torus.obj");
   const RayReport sound = subject.rays();
   REQUIRE(sound.passed());
   REQUIRE(sound.total().hits > 150);
@@ -262,7 +262,7 @@ TEST_CASE("lost hits are caught", "[tools][validate]") {
 }
 
 TEST_CASE("ghost hits are caught", "[tools][validate]") {
-  Subject subject("tetrahedron.obj");
+  ValidatedModel subject("tetrahedron.obj");
   const RayReport sound = subject.rays();
   REQUIRE(sound.passed());
   const double diagonal = subject.oracle.diagonal();
@@ -293,7 +293,7 @@ TEST_CASE("ghost hits are caught", "[tools][validate]") {
 }
 
 TEST_CASE("a hit's wrong normal and a wrong any-hit answer are caught", "[tools][validate]") {
-  Subject subject("torus.obj");
+  ValidatedModel subject("torus.obj");
   const std::size_t hits = subject.rays().total().hits;
   SECTION("towards the ray") {
     spoil_hits(subject, [](const Ray& ray, Hit hit) -> std::optional<Hit> {
