@@ -1,11 +1,8 @@
-#include <nlohmann/json.hpp>
-
 #include "tools/bench/peer_ratios.h"
+#include "tools/cli/json_text.h"
 
 namespace shaolin {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const Quantiles& of) { return {{"median", of.median}, {"p99", of.p99}, {"max", of.max}}; }
 

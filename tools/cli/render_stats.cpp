@@ -3,15 +3,13 @@
 #include <sys/resource.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "intersect/instruction_set.h"
+#include "tools/cli/json_text.h"
 
 namespace shaolin {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json to_json(const Statistics& statistics) {
   return {{"rays", statistics.rays},

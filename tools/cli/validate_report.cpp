@@ -3,13 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "tools/cli/json_text.h"
 
 namespace shaolin {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_printed = 10;
 
