@@ -117,7 +117,6 @@ Probe probe_at(const Subject& subject, const Aim& aim, const Vec3& direction, Sa
 }
 
 Vec3 nudged(Vec3 point, SampleRandom& random) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (double& x : point) {
     const std::size_t way = random.index(3);
     if (way > 0) x = std::nextafter(x, way == 1 ? infinity : -infinity);

@@ -1,5 +1,6 @@
 #pragma once
 /// Rays through points of the surface that are known beforehand, by evaluation.
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,8 @@ class SampleRandom;
 }
 
 namespace shaolin::stress {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A point of the surface and the normals of the faces that meet there.
 struct Aim {

@@ -1,6 +1,5 @@
 #pragma once
 /// What must be true of a ray's answers, and what is counted where it is not.
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,8 +8,6 @@
 #include "tools/stress/tally.h"
 
 namespace shaolin::stress {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Checks of one subject's rays, each added to a tally under the family's name.
 ///

@@ -15,8 +15,8 @@ namespace {
 constexpr double same_hit = 1e-9;
 /// How far a ray is moved sideways to see whether its hit is certain, and how far along the ray the hit may move then:
 /// at 1e-4 rad it is 1e4 times as far.
-constexpr double sideways = 1e-10;
-constexpr double along = 1e-5;
+constexpr double most_sideways = 1e-10;
+constexpr double most_along = 1e-5;
 
 struct ProbeAnswer {
   std::optional<Hit> hit;
@@ -111,7 +111,7 @@ void RayCheck::hit(const Context& context, const Hit& hit) {
   }
   context.figures.uncertified += !hit.certificate.is_certified();
   normal(context, hit, *expected);
-  const double window = context.step(along, oracle_.diagonal());
+  const double window = context.step(most_along, oracle_.diagonal());
   context.figures.seen += closest(ray, hit.t - window, hit.t + window).has_value();
 }
 
@@ -148,11 +148,12 @@ void RayCheck::nearer(const Context& context, const std::optional<Hit>& hit, con
 }
 
 bool RayCheck::certain(const Ray& ray, double t) const {
-  const double window = along * oracle_.diagonal() / ray.direction.norm();
+  const double window = most_along * oracle_.diagonal() / ray.direction.norm();
   const Vec3 side = ray.direction.unitOrthogonal(), other = ray.direction.cross(side).normalized();
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
-    const Vec3 moved = ray.origin + sideways * oracle_.diagonal() * (std::cos(angle) * side + std::sin(angle) * other);
+    const Vec3 moved =
+        ray.origin + most_sideways * oracle_.diagonal() * (std::cos(angle) * side + std::sin(angle) * other);
     if (!closest({moved, ray.direction}, t - window, t + window)) return false;
   }
   return true;

@@ -9,19 +9,19 @@ namespace shaolin {
 namespace {
 
 /// A face with a limit surface, or a corner of one.
-struct Piece {
+struct SampledPiece {
   int face, sub;
 };
 
-std::vector<Piece> pieces_of(const SampledSurface& surface) {
-  std::vector<Piece> pieces;
+std::vector<SampledPiece> pieces_of(const SampledSurface& surface) {
+  std::vector<SampledPiece> pieces;
   for (int face = 0; face < surface.face_count; ++face) {
     for (int sub = 0; surface.has_limit(face) && sub < surface.sub_count(face); ++sub) pieces.push_back({face, sub});
   }
   return pieces;
 }
 
-SurfaceParameter random_parameter(const Piece& piece, bool triangular, SampleRandom& random) {
+SurfaceParameter random_parameter(const SampledPiece& piece, bool triangular, SampleRandom& random) {
   SurfaceParameter at{piece.face, piece.sub, random.unit(), random.unit()};
   if (triangular && at.u + at.v > 1) at.u = 1 - at.u, at.v = 1 - at.v;
   return at;
@@ -29,7 +29,8 @@ SurfaceParameter random_parameter(const Piece& piece, bool triangular, SampleRan
 
 /// At `distance` from a corner of the domain: on the square's, or triangle's, far sides, shrunk towards it. Only the
 /// origin has parameters that are closer to it than a rounding of 1 and yet in the triangle.
-SurfaceParameter near_corner(const Piece& piece, bool triangular, double distance, double along, SampleRandom& random) {
+SurfaceParameter near_corner(const SampledPiece& piece, bool triangular, double distance, double along,
+                             SampleRandom& random) {
   SurfaceParameter at{piece.face, piece.sub, 0, 0};
   if (triangular) {
     // Barycentric: 1 - distance for the corner, the rest shared.
@@ -55,7 +56,7 @@ SurfaceParameter near_corner(const Piece& piece, bool triangular, double distanc
   return at;
 }
 
-SurfaceParameter crowding_parameter(const Piece& piece, bool triangular, SampleRandom& random) {
+SurfaceParameter crowding_parameter(const SampledPiece& piece, bool triangular, SampleRandom& random) {
   const double distance = random.log_between(1e-8, 1), along = random.unit();
   switch (random.index(16)) {
     case 0:
@@ -78,10 +79,10 @@ struct Surroundings {
 };
 
 /// From the corners and a point inside of each piece.
-Surroundings surroundings_of(const SampledSurface& surface, const std::vector<Piece>& pieces) {
+Surroundings surroundings_of(const SampledSurface& surface, const std::vector<SampledPiece>& pieces) {
   constexpr double places[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.3125, 0.3125}};
   Vec3 lower = surface.evaluate({pieces[0].face, pieces[0].sub, 0, 0})->position, upper = lower;
-  for (const Piece& piece : pieces) {
+  for (const SampledPiece& piece : pieces) {
     for (const auto& [u, v] : places) {
       const Vec3 point = surface.evaluate({piece.face, piece.sub, u, v})->position;
       lower = lower.cwiseMin(point);
@@ -113,7 +114,7 @@ ProbeRay ray_through(RayKind kind, const SampledSurface& surface, const SurfaceP
   return {kind, {sample.position - distance * direction, distance * direction}, 1.0, crosses};
 }
 
-ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model,
+ProbeRay grazing_ray(const SampledSurface& surface, const SampledPiece& piece, const Surroundings& model,
                      SampleRandom& random) {
   const SurfaceParameter at = random_parameter(piece, surface.triangular, random);
   const LimitSample sample = *surface.evaluate(at);
@@ -125,7 +126,8 @@ ProbeRay grazing_ray(const SampledSurface& surface, const Piece& piece, const Su
   return ray_through(RayKind::grazing, surface, at, sample, usable, random.log_between(1e-2, 3) * model.diagonal);
 }
 
-ProbeRay aimed_ray(const SampledSurface& surface, const Piece& piece, const Surroundings& model, SampleRandom& random) {
+ProbeRay aimed_ray(const SampledSurface& surface, const SampledPiece& piece, const Surroundings& model,
+                   SampleRandom& random) {
   const bool at_corner = random.one_in(2);
   const double side = surface.triangular && random.one_in(2) ? 1 : 0;
   const SurfaceParameter at = near_corner(piece, surface.triangular, at_corner ? 0 : random.unit(), side, random);
@@ -154,12 +156,12 @@ SampledSurface SampledSurface::of(const LimitSurface& surface) {
 }
 
 std::vector<SurfaceParameter> sample_parameters(const Oracle& oracle, std::size_t count, std::uint64_t seed) {
-  const std::vector<Piece> pieces = pieces_of(SampledSurface::of(oracle));
+  const std::vector<SampledPiece> pieces = pieces_of(SampledSurface::of(oracle));
   std::vector<SurfaceParameter> parameters;
   if (pieces.empty()) return parameters;
   SampleRandom random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    const Piece& piece = pieces[random.index(pieces.size())];
+    const SampledPiece& piece = pieces[random.index(pieces.size())];
     parameters.push_back(i % 4 == 3 ? crowding_parameter(piece, oracle.triangular(), random)
                                     : random_parameter(piece, oracle.triangular(), random));
   }
@@ -181,14 +183,14 @@ const char* name_of(RayKind kind) {
 }
 
 std::vector<ProbeRay> sample_rays(const SampledSurface& surface, std::size_t count, std::uint64_t seed) {
-  const std::vector<Piece> pieces = pieces_of(surface);
+  const std::vector<SampledPiece> pieces = pieces_of(surface);
   std::vector<ProbeRay> rays;
   if (pieces.empty()) return rays;
   const Surroundings model = surroundings_of(surface, pieces);
   SampleRandom random(seed);
   for (std::size_t i = 0; i < count + count / 10; ++i) {
     const RayKind kind = i < count ? ray_kinds[i % 3] : RayKind::aimed;
-    const Piece& piece = pieces[random.index(pieces.size())];
+    const SampledPiece& piece = pieces[random.index(pieces.size())];
     ProbeRay probe = kind == RayKind::camera       ? camera_ray(model, random)
                      : kind == RayKind::incoherent ? incoherent_ray(model, random)
                      : kind == RayKind::grazing    ? grazing_ray(surface, piece, model, random)
