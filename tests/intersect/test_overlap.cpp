@@ -301,7 +301,7 @@ TEMPLATE_TEST_CASE("A planar net may have a limit that folds", "[intersect][over
   CHECK_FALSE(now.is_valid);
 }
 
-TEMPLATE_TEST_CASE("Nothing that is called valid folds", "[intersect][overlap]", Loop, CatmullClark) {
+TEMPLATE_TEST_CASE("Nothing that is called valid folds", "[intersect][overlap][sweep]", Loop, CatmullClark) {
   using S = TestType;
   check_property([] {
     std::array<Vec3, 8> offsets;

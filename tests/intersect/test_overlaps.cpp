@@ -254,7 +254,7 @@ TEST_CASE("Thin shapes cross surfaces without holding a sample", "[intersect][ov
   }
 }
 
-TEST_CASE("An instance's overlaps are those of the mapped mesh", "[intersect][overlaps][instances]") {
+TEST_CASE("An instance's overlaps are those of the mapped mesh", "[intersect][overlaps][instances][sweep]") {
   Random random(24);
   for (const Model& model : {Model{"cube", "catmark", shaken(cube(), 0.2)}, Model{"poles", "loop", poles("loop", 7)},
                              Model{"sheet", "catmark", shaken(sheet("catmark", 3, 3), 0.3)}}) {

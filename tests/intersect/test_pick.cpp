@@ -73,7 +73,7 @@ void check_picks_against_brute_force(const Model& model, int count, int steps) {
 }  // namespace
 
 TEST_CASE("Faces are picked where brute force finds them", "[intersect][pick]") {
-  for (const Model& model : shape_models()) check_picks_against_brute_force(model, 30, 6);
+  for (const Model& model : shape_models()) check_picks_against_brute_force(model, 10, 6);
 }
 
 TEST_CASE("Faces are picked where brute force finds them: all models", "[intersect][pick][sweep]") {

@@ -102,7 +102,7 @@ TEST_CASE("stress finds nothing wrong with degenerate meshes and high valences",
   CHECK(result.total().hits > result.total().rays / 3);
 }
 
-TEST_CASE("stress counts lost hits, in each family", "[tools][stress]") {
+TEST_CASE("stress counts lost hits, in each family", "[tools][stress][sweep]") {
   for (const std::string& family : general) {
     CAPTURE(family);
     const Result result = run_with(with_closest([](std::optional<Hit>& hit) { hit.reset(); }), {family});
