@@ -80,7 +80,8 @@ double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3
 /// Of contacts at one place, in the order of (face, sub).
 Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
   std::vector<std::pair<const SurfaceParameter*, int>> faces;  // and the sign of each
-  bool is_mixed = false;                                       // some face has both
+  // Some face has both.
+  bool is_mixed = false;
   for (std::size_t i = 0; i < contacts.size();) {
     const SurfaceParameter& at = contacts[i].hit.at;
     int least = 1, most = -1;

@@ -77,6 +77,7 @@ TEST_CASE("Faces are picked where brute force finds them", "[intersect][pick]") 
 }
 
 TEST_CASE("Faces are picked where brute force finds them: all models", "[intersect][pick][sweep]") {
+  for (const Model& model : shape_models()) check_picks_against_brute_force(model, 30, 6);
   for (const Model& model : all_models()) {
     const Scene scene(model.mesh, model.scheme);
     if ((scene.bounds().lower.array() > scene.bounds().upper.array()).any()) continue;

@@ -138,9 +138,7 @@ void add_lost(CLI::App& app, Command& command) {
                   "edges and vertices of patches")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000000}))
       ->capture_default_str();
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seed_option(*sub, options->seed);
   sub->add_option("--epsilon", options->epsilon, "In units")->check(is_positive())->capture_default_str();
   add_chord_options(*sub, options->unit, options->min_size, options->max_size);
   sub->add_flag("--a3", options->a3, "A3 in place of ShaoLin");
@@ -169,9 +167,7 @@ void add_closest_bench(CLI::App& app, Command& command) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{100000000}))
       ->capture_default_str();
   add_runs_option(*sub, options->runs);
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seed_option(*sub, options->seed);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] { command = [options] { return bench_closest(*options); }; });
 }
@@ -200,9 +196,7 @@ void add_moved(CLI::App& app, Command& command) {
   sub->add_option("--level", options->level, "Of the others' triangles")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seed_option(*sub, options->seed);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] { command = [options] { return bench_moved(*options); }; });
 }

@@ -38,7 +38,8 @@ struct ClosestSubject {
         diagonal((scene.bounds().upper - scene.bounds().lower).norm()) {}
 };
 
-/// Point `number` of those that a seed gives.
+/// Point `number` of those that a seed gives: by a generator of its own, so that threads need no order. (Seeds are
+/// apart by the odd number nearest to 2^64 over the golden ratio, as in SplitMix; Steele, Lea, Flood 2014.)
 Vec3 random_point(const ClosestSubject& subject, const DenseSampling& samples, std::uint64_t seed, std::size_t number) {
   SampleRandom random(seed * 0x9e3779b97f4a7c15u + number);
   const Box box = subject.scene.bounds();
@@ -109,7 +110,6 @@ FineTriangles fine_triangles(const ClosestSubject& subject, std::span<const Vec3
   FineTriangles fine;
   for (fine.level = 1;; ++fine.level) {
     const TriangleSoup soup = uniform_triangles(subject.mesh, subject.scheme, fine.level);
-    if (soup.triangles.empty()) throw InputError(subject.name + ": needs a mesh of Loop or Catmull-Clark with a limit");
     fine.count = soup.triangles.size();
     fine.tree = std::make_unique<const TriangleTree>(soup);
     fine.error = 0;
@@ -145,9 +145,12 @@ ClosestLap time_in_turns(const Scene& scene, const TriangleTree& tree, std::span
 /// False if anything is wrong.
 bool bench_model(const std::filesystem::path& file, const ClosestBenchOptions& options) {
   const ClosestSubject subject(file, read_obj(file));
+  if (subject.scheme != "loop" && subject.scheme != "catmark")
+    throw InputError(file.string() + ": is of the scheme " + subject.scheme +
+                     "; triangles are those of loop or catmark");
   constexpr int steps = 5;
   const DenseSampling samples(subject.scene.surface(), steps);
-  if (samples.samples().empty()) throw InputError(subject.name + ": has no limit surface");
+  if (samples.samples().empty()) throw InputError(file.string() + ": has no limit surface");
   const CheckedPoints checked = check_points(subject, samples, options);
 
   std::vector<Vec3> points;

@@ -20,12 +20,13 @@ struct MovedOptions {
   int threads = 0;                                                ///< --threads
 };
 
-/// Moves the control points, and asks the exact method, uniform triangles, Embree's triangles and its subdivision
-/// (robust), and CGAL's tree over triangles for rays from around the model to points of its box, and through edges and
-/// vertices. Prints a row for each: hits that it loses and makes up against the exact method, and by how much others
-/// are off along the ray, in diagonals of the model. What triangles lose at outlines is their error, not that of their
-/// queries: the rows of a model that is not moved show how much that is. Of the exact method errors are those of
-/// exact_errors(): from the hit to the surface of the moved control points, refined in numbers of 113 bits.
+/// Moves the control points, and asks the exact method, Embree's triangles and its subdivision (robust), and CGAL's
+/// tree over triangles for rays from around the model to points of its box, and through edges and vertices. Prints a
+/// row for each: hits that it loses and makes up against the exact method, and by how much others are off along the
+/// ray, in diagonals of the model. What triangles lose at outlines is their error, not that of their queries: the rows
+/// of a model that is not moved show how much that is. Of the exact method errors are those of exact_errors(): from the
+/// hit to the surface of the moved control points, refined in numbers of 113 bits. Schemes that the others do not have,
+/// plug-ins' among them, have the exact method's rows alone.
 ///
 /// Returns exit_done. The same options give the same rays. Throws InputError.
 int bench_moved(const MovedOptions& options);

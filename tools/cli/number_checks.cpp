@@ -26,4 +26,8 @@ CLI::Validator is_not_negative() {
   return finite_number("from 0 on", [](double value) { return value >= 0; });
 }
 
+void add_seed_option(CLI::App& app, std::uint64_t& seed) {
+  app.add_option("--seed", seed, "Seed of the random numbers")->check(CLI::NonNegativeNumber)->capture_default_str();
+}
+
 }  // namespace shaolin

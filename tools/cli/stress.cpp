@@ -85,9 +85,7 @@ void add_stress(CLI::App& app, Command& command) {
   sub->add_option("--family", options->families, "Some of the families")
       ->check(CLI::IsMember(family_names()))
       ->type_name("NAME");
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seed_option(*sub, options->seed);
   sub->add_option("--report", options->report, "Folder for tables and failed rays")->type_name("DIR");
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] { command = [options] { return stress_models(*options); }; });

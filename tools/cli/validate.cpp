@@ -10,6 +10,7 @@
 #include "schemes/errors.h"
 #include "schemes/limit_surface.h"
 #include "tools/cli/distinct_files.h"
+#include "tools/cli/number_checks.h"
 #include "tools/cli/output_file.h"
 #include "tools/cli/render_stats.h"
 #include "tools/cli/threads.h"
@@ -141,9 +142,7 @@ void add_validate(CLI::App& app, Command& command) {
          "certificates, and whose decisions about chord triangles (--uniform 2) are made again by exact signs: "
          "0.1 s each (default: none)")
       ->check(CLI::Range(std::size_t{0}, std::size_t{100000000}));
-  sub->add_option("--seed", options->seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_seed_option(*sub, options->seed);
   sub->add_option("--report", options->report, "JSON file for all figures and every disagreement")->type_name("FILE");
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
