@@ -203,10 +203,20 @@ template <class Bezier>
 Eigen::Vector2d NewtonFinish<Bezier>::slope(const Net& cell) {
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
-  Matrix normal_equations = jacobian * jacobian.transpose();
-  normal_equations.diagonal().array() += 1e-12 * normal_equations.trace();
   const Eigen::Vector2d mean(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
-  const Eigen::Vector2d ab = normal_equations.inverse() * (jacobian * mean);
+  // Past this ratio of what the cell's shadow measures along and across, the direction across is taken for rounding. (By
+  // the normal equations, which square the ratio, four digits would be left of (a, b), and of a patch collapsed to a
+  // segment that crosses the ray 4e7 cells would pass for nearer than its point on the ray.)
+  constexpr double flattest = 1e-6;
+  Eigen::Vector2d ab;
+  if (std::abs(jacobian.determinant()) > flattest * jacobian.squaredNorm()) {
+    ab = jacobian.transpose().inverse() * mean;
+  } else {
+    const bool u_is_longer = jacobian.col(0).squaredNorm() > jacobian.col(1).squaredNorm();
+    const Eigen::Vector2d along = jacobian.col(u_is_longer ? 0 : 1).normalized();
+    const Eigen::Vector2d steps = jacobian.transpose() * along;
+    ab = along * (steps.dot(mean) / steps.squaredNorm());
+  }
   return ab.allFinite() ? ab : Eigen::Vector2d::Zero();
 }
 

@@ -180,6 +180,26 @@ TEST_CASE("A ray that touches a fold hits, one beside it misses", "[intersect][f
   CHECK(!solve(folded(-0.5, 1)));
 }
 
+// Each of its points is met along a curve of parameters, at one distance, which the cells around that curve do not show by
+// their own distances alone.
+TEMPLATE_TEST_CASE("Where a patch is collapsed to a segment, a ray across it asks few cells", "[intersect][finish]",
+                   BezierQuad, BezierTriangle) {
+  Random random(12);
+  for (int k = 0; k < 200; ++k) {
+    TestType patch;
+    const Vec3 way = random.point();
+    for (Vec3& point : patch.b) point = random.uniform(0, 1) * way;
+    const double share = random.uniform(0.3, 0.7);
+    const Vec3 met = patch.position(TestType::DomainType::centre() + 0.2 * Parameter(share - 0.5, share - 0.5));
+    for (Vec3& point : patch.b) point += Vec3(0, 0, 3) - met;
+    RayCounters counters;
+    NewtonFinish<TestType> finish(patch_error, 0, infinity, false, counters);
+    REQUIRE(finish.solve(Net(patch)));
+    CHECK(finish.hit().distance == Approx(3).margin(1e-9));
+    CHECK(counters.cells < 4000);
+  }
+}
+
 TEMPLATE_TEST_CASE("A ray through a corner or a side hits", "[intersect][finish]", BezierQuad, BezierTriangle) {
   Random random(52);
   using D = typename TestType::DomainType;
