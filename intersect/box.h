@@ -62,19 +62,23 @@ inline double power_of_two_below(double x) {
 
 /// A ray prepared for traversal: unit direction, distances in place of t.
 struct TraversalRay {
-  Vec3 origin, direction, inverse;
+  Vec3 origin, direction;
   double near, far;
 
   explicit TraversalRay(const Ray& ray) : origin(ray.origin) {
-    // Scale first, by a power of two: the square of a tiny or huge direction would underflow or overflow, and so may
-    // the length itself.
-    scale_ = power_of_two_below(ray.direction.cwiseAbs().maxCoeff());
-    const Vec3 scaled = ray.direction / scale_;
+    // The square of a tiny or huge direction would underflow or overflow, and so may the length itself: such a one is
+    // scaled first, by a power of two.
+    constexpr double tiny = 0x1p-400, huge = 0x1p400;
+    const double largest = ray.direction.cwiseAbs().maxCoeff();
+    Vec3 scaled = ray.direction;
+    if (largest < tiny || largest > huge) {
+      scale_ = power_of_two_below(largest);
+      scaled /= scale_;
+    }
     scaled_length_ = scaled.norm();
     direction = scaled / scaled_length_;
-    // A component that has no inverse moves the ray by 2e-308 of its way: far below the rounding of any coordinate.
+    // A component that is no normal number moves the ray by 2e-308 of its way: far below the rounding of any coordinate.
     direction = (direction.array().abs() < std::numeric_limits<double>::min()).select(0.0, direction);
-    inverse = direction.cwiseInverse();
     near = ray.tmin * scaled_length_ * scale_;
     far = ray.tmax * scaled_length_ * scale_;
     // Along a tiny direction t overflows: what no number says is no hit.
@@ -92,19 +96,19 @@ struct TraversalRay {
   double length() const { return scaled_length_ * scale_; }
 
  private:
-  double scale_, scaled_length_;
+  double scale_ = 1, scaled_length_;
 };
 
 /// The distance at which a ray enters a box, or empty unless it meets it within [ray.near, far]. Conservative if the
-/// box was rounded outward: a slab's end carries three roundings, and is moved out by 4 u of its value. A direction
+/// box was rounded outward: a slab's end carries two roundings, and is moved out by 4 u of its value. A direction
 /// component of 0 gives infinite or undefined ends; an undefined end constrains nothing, and an infinite end on the
 /// wrong side becomes undefined and is no hit.
 inline std::optional<double> entry_distance(const Box& box, const TraversalRay& ray, double far) {
   double entry = -std::numeric_limits<double>::infinity(), exit = std::numeric_limits<double>::infinity();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const bool lower_first = !(ray.inverse[axis] < 0);
-    const double first = ((lower_first ? box.lower : box.upper)[axis] - ray.origin[axis]) * ray.inverse[axis];
-    const double last = ((lower_first ? box.upper : box.lower)[axis] - ray.origin[axis]) * ray.inverse[axis];
+    const bool lower_first = !std::signbit(ray.direction[axis]);
+    const double first = ((lower_first ? box.lower : box.upper)[axis] - ray.origin[axis]) / ray.direction[axis];
+    const double last = ((lower_first ? box.upper : box.lower)[axis] - ray.origin[axis]) / ray.direction[axis];
     entry = first > entry ? first : entry;
     exit = last < exit ? last : exit;
   }

@@ -67,10 +67,10 @@ struct alignas(32) EightBoxes {
   bool is_empty(std::size_t i) const { return bounds[0][0][i] > bounds[1][0][i]; }
 };
 
-/// A ray in a scene's coordinates, from a start near the scene on, in single precision; on both sides of its origin if
-/// there is no start.
+/// A ray in a scene's coordinates, in single precision. Distances count from a place on it, which should be near the
+/// scene.
 ///
-/// A plane x = b is met at b inverse + c, c = -x inverse for a ray that starts at x. The factor, the product, c and the
+/// A plane x = b is met at b inverse + c, c = -x inverse for a ray counted from x. The factor, the product, c and the
 /// sum are each rounded once, which moves the distance by at most (3 |b| + 2 |x|) |inverse| v to first order. The boxes
 /// take care of the first term. For the second, entries are moved forward by 4 |x| |inverse| v, exits back; what is
 /// left over covers the double roundings of x, and 8 u of the origin those of a start far away. A direction component
@@ -78,12 +78,11 @@ struct alignas(32) EightBoxes {
 /// zero.
 class BoxRay {
  public:
-  /// `start` is a distance along the ray, or -infinity.
-  BoxRay(const TraversalRay& ray, const BoxSpace& space, double start)
-      : start_(std::isfinite(start) ? start : 0),
-        scale_(space.scale),
-        begin_(std::isfinite(start) ? 0 : -std::numeric_limits<float>::infinity()) {
-    const Vec3 origin = space(ray.origin), at = origin + (start_ * space.scale) * ray.direction;
+  /// `start` is the distance along the ray that others count from.
+  BoxRay(const TraversalRay& ray, const BoxSpace& space, double start) : start_(start), scale_(space.scale) {
+    const double near = (ray.near - start_) * scale_;
+    begin_ = static_cast<float>(near * (near < 0 ? 1 + 0x1p-22 : 1 - 0x1p-22));
+    const Vec3 origin = space(ray.origin), at = origin + (start_ * scale_) * ray.direction;
     const double own_error = 8 * unit_roundoff * origin.cwiseAbs().maxCoeff();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
@@ -101,10 +100,10 @@ class BoxRay {
   /// A distance along the ray in this ray's units, moved on by more than rounding may take from it.
   float local(double distance) const {
     const double value = (distance - start_) * scale_;
-    return static_cast<float>(value + 0x1p-22 * std::abs(value));
+    return static_cast<float>(value * (value < 0 ? 1 - 0x1p-22 : 1 + 0x1p-22));
   }
 
-  /// True if the ray meets the box between its start and `far`.
+  /// True if the ray meets the box no nearer than it may, and before `far`.
   bool meets(const SceneBox& box, float far) const {
     float entry = begin_, exit = far;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -115,7 +114,7 @@ class BoxRay {
     return entry <= exit;
   }
 
-  /// Those of eight boxes that the ray meets between its start and `far`, as bits; where it enters each.
+  /// Those of eight boxes that the ray meets, as bits; where it enters each.
   unsigned meet(const EightBoxes& boxes, float far, std::array<float, 8>& entries) const {
     Eight entry(begin_), exit(far);
     for (std::size_t axis = 0; axis < 3; ++axis) {

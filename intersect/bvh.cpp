@@ -182,12 +182,8 @@ Bvh::Bvh(const std::vector<Box>& boxes) : space_(finite_bounds(boxes)) {
   depth_ = builder.collapse(nodes_, space_);
   nodes_.shrink_to_fit();
   bounds_ = builder.nodes.front().box;
-}
-
-std::optional<BoxRay> Bvh::enter(const TraversalRay& ray) const {
-  const std::optional<double> entry = entry_distance(bounds_, ray, ray.far);
-  if (!entry) return {};
-  return BoxRay(ray, space_, std::max(*entry, ray.near));
+  middle_ = bounds_.centre();
+  half_extents_ = (bounds_.upper - middle_).array() + 4 * unit_roundoff * bounds_.largest_coordinate();
 }
 
 }  // namespace shaolin

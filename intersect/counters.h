@@ -1,10 +1,10 @@
 #pragma once
-/// Work counters of one ray, and their sums.
+/// Work counters of rays, and their sums.
 #include <cstdint>
 
 namespace shaolin {
 
-/// What one query did; added to the scene's totals when the query ends.
+/// What queries did; each thread counts its own.
 struct RayCounters {
   std::uint64_t hull_tests = 0;  ///< RP/CP tests of a patch's control points
   std::uint64_t cells = 0;       ///< parameter cells that the exact finish looked at, or triangles of a tessellation

@@ -220,15 +220,15 @@ double ExactFinish<S>::position_error(const Found& found) {
 
 template <Scheme S>
 SHAOLIN_FLATTEN LimitSample ExactFinish<S>::polynomial_sample(const Found& found) {
-  LimitSample sample = detail::sample(polynomial_of(*found.patch).polynomial(), found.at, Vec3::Zero(), {});
+  auto [position, d] = jet<Polynomial>(polynomial_of(*found.patch).net(), found.at);
+  const Vec3 normal = detail::unit_normal(d.du, d.dv);
   const Parameter inverse = found.patch->place().domain.scale.cwiseInverse();
-  Derivatives& d = *sample.derivatives;
   d.du *= inverse.x();
   d.dv *= inverse.y();
   d.duu *= inverse.x() * inverse.x();
   d.duv *= inverse.x() * inverse.y();
   d.dvv *= inverse.y() * inverse.y();
-  return sample;
+  return {position, normal, d};
 }
 
 /// The patch's shadow list: the parts that the ray's box test leaves, front to back.

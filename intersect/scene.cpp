@@ -25,11 +25,19 @@ std::string text(const Vec3& v) {
   return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
 }
 
-void check(const Ray& ray) {
+/// Throws what says which.
+[[noreturn]] void refuse(const Ray& ray) {
   if (!ray.origin.allFinite()) throw InputError("ray origin " + text(ray.origin) + " is not finite");
   if (!ray.direction.allFinite()) throw InputError("ray direction " + text(ray.direction) + " is not finite");
   if (ray.direction.isZero(0)) throw InputError("ray direction is zero; expected a direction of any other length");
-  if (std::isnan(ray.tmin) || std::isnan(ray.tmax)) throw InputError("ray interval [tmin, tmax] has a NaN");
+  throw InputError("ray interval [tmin, tmax] has a NaN");
+}
+
+void check(const Ray& ray) {
+  // 0 times a number is 0, unless that is infinite or none.
+  const bool is_finite = (0 * ray.origin + 0 * ray.direction).isZero(0);
+  const bool is_usable = is_finite && !ray.direction.isZero(0) && !std::isunordered(ray.tmin, ray.tmax);
+  if (!is_usable) refuse(ray);
 }
 
 std::uint64_t count_uncertified(const std::optional<Hit>& hit) { return hit && !hit->certificate.is_certified(); }
@@ -56,10 +64,8 @@ class Scene::Implementation {
   template <class Answer>
   Answer counted(const Ray& ray, Answer (Implementation::*query)(const Ray&, RayCounters&) const) const {
     check(ray);
-    RayCounters counters;
-    const Answer answer = (this->*query)(ray, counters);
     Statistics& local = own_counters();
-    local += counters;
+    const Answer answer = (this->*query)(ray, local);
     ++local.rays;
     local.hits += is_hit(answer);
     return answer;
@@ -110,10 +116,8 @@ class Scene::Implementation {
   std::optional<ClosestPoint> closest_point(const Vec3& p, double radius) const {
     check(p);
     check_radius(radius);
-    RayCounters counters;
-    const std::optional<ClosestPoint> answer = closest_point(p, radius, counters);
     Statistics& local = own_counters();
-    local += counters;
+    const std::optional<ClosestPoint> answer = closest_point(p, radius, local);
     ++local.points;
     return answer;
   }

@@ -178,6 +178,7 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
 
 template <Scheme S, template <class> class Finish>
 bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
+  if (bvh_.is_passed_by(ray)) return false;
   const PatchBudget::Query guard(start_patches_.budget());
   const std::optional<FoundAt> any = search<Query::any>(ray, TraversalRay(ray), counters);
   if (any && !is_certified(any->found)) ++counters.uncertified;
@@ -224,6 +225,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
 
 template <Scheme S, template <class> class Finish>
 std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& counters) const {
+  if (bvh_.is_passed_by(ray)) return {};
   const PatchBudget::Query guard(start_patches_.budget());
   return closest(ray, TraversalRay(ray), counters);
 }

@@ -48,12 +48,20 @@ struct Zoom {
   int parameters = 0, points = 0;
 };
 
+/// The unit normal of two derivatives; zero if they are parallel.
+inline Vec3 unit_normal(const Vec3& du, const Vec3& dv) {
+  const Vec3 normal = du.cross(dv);
+  const double square = normal.squaredNorm();
+  if (square > 0x1p-900 && square < 0x1p900) return normal / std::sqrt(square);
+  // The product of tiny vectors underflows, that of huge ones overflows.
+  return du.stableNormalized().cross(dv.stableNormalized()).stableNormalized();
+}
+
 /// The polynomial's sample.
 template <class Regular>
 LimitSample sample(const Regular& piece, const Parameter& at, const Vec3& anchor, const Zoom& zoom) {
   Derivatives d = piece.derivatives(at);
-  // Normalised first: the product of tiny vectors would underflow.
-  const Vec3 normal = d.du.stableNormalized().cross(d.dv.stableNormalized()).stableNormalized();
+  const Vec3 normal = unit_normal(d.du, d.dv);
   const int first = zoom.parameters - zoom.points, second = first + zoom.parameters;
   for (Vec3* derivative : {&d.du, &d.dv}) *derivative = zoom.sign * times_power(*derivative, first);
   for (Vec3* derivative : {&d.duu, &d.duv, &d.dvv}) *derivative = times_power(*derivative, second);

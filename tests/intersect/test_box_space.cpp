@@ -139,7 +139,7 @@ TEST_CASE("A line without a start meets boxes on both sides of its origin", "[in
   scene.add(Vec3(-1, -1, -1));
   scene.add(Vec3(1, 1, 1));
   const BoxSpace space(scene);
-  const BoxRay line(TraversalRay({{0, 0, 0}, {1, 0.25, 0}, -infinity, infinity}), space, -infinity);
+  const BoxRay line(TraversalRay({{0, 0, 0}, {1, 0.25, 0}, -infinity, infinity}), space, 0);
   const auto meets = [&](const Vec3& middle) {
     const Vec3 half = Vec3::Constant(0.1);
     return line.meets({{middle - half, middle + half}, space}, line.local(infinity));
