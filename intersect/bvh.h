@@ -101,22 +101,36 @@ void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
     stack = large.data();
   }
   Entry* top = stack;
-  *top++ = {0, -std::numeric_limits<float>::infinity()};
+  Entry next{0, 0};  // in hand: most nodes lead on to one child or none
   alignas(32) std::array<float, width> entries;
-  while (top != stack) {
-    const Entry entry = *--top;
-    if (entry.distance > far()) continue;
-    if (entry.child < 0) {
-      if (visit(~entry.child)) return;
-      continue;
+  for (;;) {
+    bool leads_on = false;
+    if (next.child < 0) {
+      if (visit(~next.child)) return;
+    } else {
+      const Node& node = nodes_[static_cast<std::size_t>(next.child)];
+      if (unsigned met = ray.meet(node.boxes, far(), entries); met != 0) {
+        const auto take = [&] {
+          const auto i = static_cast<std::size_t>(std::countr_zero(met));
+          met &= met - 1;
+          return Entry{node.child[i], entries[i]};
+        };
+        leads_on = true;
+        next = take();
+        Entry* const first = top;
+        while (met != 0) {
+          Entry farther = take();
+          if (farther.distance < next.distance) std::swap(farther, next);
+          Entry* at = top++;
+          for (; at != first && at[-1].distance < farther.distance; --at) *at = at[-1];
+          *at = farther;
+        }
+      }
     }
-    const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
-    Entry* const first = top;
-    for (unsigned met = ray.meet(node.boxes, far(), entries); met != 0; met &= met - 1) {
-      const auto i = static_cast<std::size_t>(std::countr_zero(met));
-      Entry* at = top++;
-      for (; at != first && at[-1].distance < entries[i]; --at) *at = at[-1];
-      *at = {node.child[i], entries[i]};
+    while (!leads_on) {
+      if (top == stack) return;
+      next = *--top;
+      leads_on = next.distance <= far();
     }
   }
 }
