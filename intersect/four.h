@@ -18,6 +18,7 @@ class Four {
  public:
   explicit Four(double all) : value_(_mm256_set1_pd(all)) {}
   explicit Four(const double* from) : value_(_mm256_loadu_pd(from)) {}
+  Four(double a, double b, double c, double d) : value_(_mm256_setr_pd(a, b, c, d)) {}
   void store(double* to) const { _mm256_storeu_pd(to, value_); }
 
   friend Four operator+(Four a, Four b) { return Four(_mm256_add_pd(a.value_, b.value_)); }
@@ -51,6 +52,7 @@ class Four {
  public:
   explicit Four(double all) : low_(_mm_set1_pd(all)), high_(low_) {}
   explicit Four(const double* from) : low_(_mm_loadu_pd(from)), high_(_mm_loadu_pd(from + 2)) {}
+  Four(double a, double b, double c, double d) : low_(_mm_setr_pd(a, b)), high_(_mm_setr_pd(c, d)) {}
   void store(double* to) const {
     _mm_storeu_pd(to, low_);
     _mm_storeu_pd(to + 2, high_);
@@ -91,6 +93,7 @@ class Four {
  public:
   explicit Four(double all) { value_.fill(all); }
   explicit Four(const double* from) : value_{from[0], from[1], from[2], from[3]} {}
+  Four(double a, double b, double c, double d) : value_{a, b, c, d} {}
   void store(double* to) const {
     for (std::size_t i = 0; i < 4; ++i) to[i] = value_[i];
   }
@@ -119,11 +122,11 @@ class Four {
     return bits;
   }
   friend Four rotated(const Four& a) {
-    return Four(std::array{a.value_[1], a.value_[2], a.value_[3], a.value_[0]}.data());
+    return {a.value_[1], a.value_[2], a.value_[3], a.value_[0]};
   }
   friend Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
     const auto sum = [](const Four& x) { return (x.value_[0] + x.value_[1]) + (x.value_[2] + x.value_[3]); };
-    return Four(std::array{sum(a), sum(b), sum(c), sum(d)}.data());
+    return {sum(a), sum(b), sum(c), sum(d)};
   }
 
  private:

@@ -159,7 +159,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
   if (cells_ > 4 && (all_ ? is_known(cell) : has_hit_ && is_no_nearer(cell))) return;
-  const double along_u_length = jacobian.col(0).norm(), along_v_length = jacobian.col(1).norm();
+  const double along_u_length = jacobian.col(0).lpNorm<1>(), along_v_length = jacobian.col(1).lpNorm<1>();
   if (std::abs(jacobian.determinant()) <= 1e-12 * along_u_length * along_v_length) {
     // Seen from the ray the cell is nearly a curve: the hull test across it.
     const Eigen::Vector2d along = jacobian.col(along_u_length > along_v_length ? 0 : 1);

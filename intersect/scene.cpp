@@ -34,10 +34,11 @@ std::string text(const Vec3& v) {
 }
 
 void check(const Ray& ray) {
+  const Vec3 &o = ray.origin, &d = ray.direction;
   // 0 times a number is 0, unless that is infinite or none.
-  const bool is_finite = (0 * ray.origin + 0 * ray.direction).isZero(0);
-  const bool is_usable = is_finite && !ray.direction.isZero(0) && !std::isunordered(ray.tmin, ray.tmax);
-  if (!is_usable) refuse(ray);
+  const double zero = (0 * o.x() + 0 * o.y()) + (0 * o.z() + 0 * d.x()) + (0 * d.y() + 0 * d.z());
+  const bool has_direction = d.x() != 0 || d.y() != 0 || d.z() != 0;
+  if (std::isnan(zero) || !has_direction || std::isunordered(ray.tmin, ray.tmax)) refuse(ray);
 }
 
 std::uint64_t count_uncertified(const std::optional<Hit>& hit) { return hit && !hit->certificate.is_certified(); }
