@@ -299,12 +299,16 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
 /// made. These are the first tests of NewtonFinish, and turn away most.
 template <Scheme S>
 SHAOLIN_FLATTEN bool ExactFinish<S>::Search::project(const Net& net, int number, Net& piece) {
-  const Pieces<Polynomial>& pieces = pieces_of<Polynomial>;
-  Net whole;
-  frame().project(net, whole);
-  if (const Range x(pieces.restrict_to(number, whole.x, piece.x)); x.low > error_ || x.high < -error_) return false;
-  if (const Range y(pieces.restrict_to(number, whole.y, piece.y)); y.low > error_ || y.high < -error_) return false;
-  pieces.restrict_to(number, whole.z, piece.z);
+  const auto make = [&](RayFrame::Axis axis, std::array<double, 16>& to) {
+    std::array<double, 16> whole;
+    frame().project(net, axis, whole);
+    pieces_of<Polynomial>.restrict_to(number, whole, to);
+  };
+  make(RayFrame::Axis::x, piece.x);
+  if (const Range x(piece.x); x.low > error_ || x.high < -error_) return false;
+  make(RayFrame::Axis::y, piece.y);
+  if (const Range y(piece.y); y.low > error_ || y.high < -error_) return false;
+  make(RayFrame::Axis::z, piece.z);
   return true;
 }
 

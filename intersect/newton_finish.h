@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 #include <vector>
 
@@ -89,6 +90,14 @@ class NewtonFinish {
 
   enum class Verdict { none, found, unknown };
 
+  /// A bound of |identity - g'| over a cell, in the norm |p| = max(|u| / weight of u, |v| / weight of v), of which the
+  /// larger weight is 1.
+  struct Contraction {
+    double share;
+    Parameter weights;
+    double norm(const Parameter& p) const { return p.cwiseAbs().cwiseQuotient(weights).maxCoeff(); }
+  };
+
   /// A cell's parameters p stand for origin + scale * p, per coordinate.
   void visit(const Net& cell, const Parameter& origin, const Parameter& scale);
   void split(const Net& cell, const Parameter& origin, const Parameter& scale);
@@ -100,10 +109,11 @@ class NewtonFinish {
   static Range on_ray(const Net& cell, const Eigen::Vector2d& ab);
   bool is_no_nearer(const Net& cell) const;
   bool is_known(const Net& cell) const;
-  double contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const;
-  Verdict newton(const Net& cell, const Matrix& flattening, double contraction, Parameter at, PatchHit& hit);
+  static Contraction contraction(const std::array<double, 16>& x, const std::array<double, 16>& y);
+  Verdict newton(const Net& cell, const Matrix& flattening, const Contraction& contraction, Parameter at,
+                 PatchHit& hit);
   double zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
-                     const Matrix& flattening, double contraction) const;
+                     const Matrix& flattening, const Contraction& contraction) const;
   /// Of a hit in a cell's parameters.
   void accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale);
 
@@ -184,12 +194,12 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   if (along_v.low > slack_y || along_v.high < -slack_y) return;
 
   // Where the error is not small against the cell, seen from the ray, there is no one zero for Newton's method to find.
-  const double share = contraction(flat_x, flat_y);
-  if (share < 0.95 && error_ * flattening.norm() < 0.25) {
+  const Contraction contracts = contraction(flat_x, flat_y);
+  if (contracts.share < 0.95 && error_ * flattening.norm() < 0.25) {
     PatchHit hit;
     const Parameter start =
         D::nearest(D::centre() - Parameter(dot(flat_x, centre_weights), dot(flat_y, centre_weights)));
-    const Verdict verdict = newton(cell, flattening, share, start, hit);
+    const Verdict verdict = newton(cell, flattening, contracts, start, hit);
     if (verdict == Verdict::found) accept(hit, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
@@ -256,51 +266,68 @@ bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
   });
 }
 
-/// A bound of |identity - g'| over a cell, for g given by its control values: the root of the largest squared
-/// deviations of both derivative hulls from the unit vectors. The roundings of some 10 u a value are far below the 1e-9
-/// added.
+/// For g given by its control values, by those of its derivatives: with a_ij the largest |1 - dg_i/dj| or |dg_i/dj| of
+/// them, any weights w bound the norm by the larger of (a_i1 w_1 + a_i2 w_2) / w_i. The least such bound, the spectral
+/// radius of a (Perron), has both equal. Of a cell that is far longer one way than the other g of the short way varies
+/// with the long one many times as much as the reverse; weights take that out, where the Euclidean norm does not: on a
+/// car's creases they leave a fifth of the splits. The roundings of some 10 u a value are far below the 1e-9 added.
 template <class Bezier>
-double NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) const {
+auto NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) -> Contraction {
   constexpr double degree = Bezier::degree;
-  double along_u = 0, along_v = 0;
+  double xu = 0, yu = 0, xv = 0, yv = 0;
   if constexpr (std::is_same_v<Bezier, BezierQuad>) {
     // Rows are registers: their differences among each other go along v, those of their places along u.
     const Four three(degree), one(1);
-    const auto square = [](Four a, Four b) { return a * a + b * b; };
-    Four most_u(0.0), most_v(0.0);
+    Four most_xu(0.0), most_yu(0.0), most_xv(0.0), most_yv(0.0);
     for (std::size_t j = 0; j < 16; j += 4) {
       const Four xj(&x[j]), yj(&y[j]);
-      most_u = larger(square(three * (rotated(xj) - xj) - one, three * (rotated(yj) - yj)), most_u);
+      most_xu = larger(abs(three * (rotated(xj) - xj) - one), most_xu);
+      most_yu = larger(abs(three * (rotated(yj) - yj)), most_yu);
       if (j == 12) break;
-      most_v = larger(square(three * (Four(&x[j + 4]) - xj), three * (Four(&y[j + 4]) - yj) - one), most_v);
+      most_xv = larger(abs(three * (Four(&x[j + 4]) - xj)), most_xv);
+      most_yv = larger(abs(three * (Four(&y[j + 4]) - yj) - one), most_yv);
     }
-    std::array<double, 4> u, v;
-    most_u.store(u.data());
-    most_v.store(v.data());
-    along_u = std::max({u[0], u[1], u[2]});
-    along_v = std::max({v[0], v[1], v[2], v[3]});
+    const auto largest = [](Four four, std::size_t count) {
+      std::array<double, 4> v;
+      four.store(v.data());
+      return count == 3 ? std::max({v[0], v[1], v[2]}) : std::max({v[0], v[1], v[2], v[3]});
+    };
+    xu = largest(most_xu, 3);
+    yu = largest(most_yu, 3);
+    xv = largest(most_xv, 4);
+    yv = largest(most_yv, 4);
   } else {
     for (const auto& [from, to] : Bezier::u_pairs) {
-      const double dx = degree * (x[to] - x[from]) - 1, dy = degree * (y[to] - y[from]);
-      along_u = std::max(along_u, dx * dx + dy * dy);
+      xu = std::max(xu, std::abs(degree * (x[to] - x[from]) - 1));
+      yu = std::max(yu, std::abs(degree * (y[to] - y[from])));
     }
     for (const auto& [from, to] : Bezier::v_pairs) {
-      const double dx = degree * (x[to] - x[from]), dy = degree * (y[to] - y[from]) - 1;
-      along_v = std::max(along_v, dx * dx + dy * dy);
+      xv = std::max(xv, std::abs(degree * (x[to] - x[from])));
+      yv = std::max(yv, std::abs(degree * (y[to] - y[from]) - 1));
     }
   }
-  return std::sqrt(along_u + along_v) + 1e-9;
+  // Equal weights are as good where they leave little.
+  constexpr double little = 0.5, most = 0x1p20;
+  double ratio = 1;  // of the weight of v to that of u
+  if (std::max(xu + xv, yu + yv) > little) {
+    const double root = std::sqrt((xu - yv) * (xu - yv) + 4 * xv * yu);
+    ratio = xu > yv ? 2 * yu / (xu - yv + root) : (yv - xu + root) / (2 * xv);
+    ratio = ratio > 1 / most ? std::min(ratio, most) : 1 / most;
+  }
+  const double share = std::max(xu + xv * ratio, yv + yu / ratio) + 1e-9;
+  return {share, ratio < 1 ? Parameter(1, ratio) : Parameter(1 / ratio, 1)};
 }
 
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
 /// zero x* of the cell: |T(x) - x*| <= q |x - x*| and |x - x*| <= |g(x)| / (1 - q). Hence a T(x) farther than
 /// q |g(x)| / (1 - q) from the cell proves that there is no zero. Newton steps only choose the x to ask at. A point
-/// within the error of the ray is a zero of g moved by no more than |flattening| error, which widens both bounds by 1 /
-/// (1 - q) of that.
+/// within the error of the ray is a zero of g moved by no more than s = |flattening| error, row by row, so that
+/// |T(x) - x*| <= (q |g(x)| + s) / (1 - q).
 template <class Bezier>
-SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix& flattening, double contraction,
-                                                  Parameter at, PatchHit& hit) -> Verdict {
-  const double slack = error_ * flattening.norm() * 1.5 / (1 - contraction);
+SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix& flattening,
+                                                  const Contraction& contraction, Parameter at, PatchHit& hit)
+    -> Verdict {
+  const double q = contraction.share, slack = contraction.norm(error_ * flattening.cwiseAbs().rowwise().sum());
   constexpr int most_steps = 12;
   for (int i = 0; i < most_steps; ++i) {
     ++counters_.newton_steps;
@@ -314,8 +341,8 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
       const Eigen::Vector2d g = flattening * f;
       const Parameter image = at - g;
       if (!D::contains(image)) {
-        const double reach = contraction * g.norm() / (1 - contraction) + slack;
-        if ((image - D::nearest(image)).norm() > reach * (1 + 1e-10)) return Verdict::none;
+        const double reach = (q * contraction.norm(g) + slack) / (1 - q) * (1 + 1e-10);
+        if (D::is_outside(image, reach * contraction.weights)) return Verdict::none;
       }
     }
     Matrix jacobian;
@@ -345,21 +372,23 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
 /// How far at most the zero of the exact map lies from at + step, by the contraction principle; infinite if that proves
 /// none. `f` and `jacobian` are the map and its derivative at `at`.
 ///
-/// The exact map's control values differ from the given ones by at most the error, so its values by |flattening|
-/// sqrt(2) error, and derivatives, differences of control values times a degree of at most 4, by 16 |flattening| error
-/// in all. The disc may leave the cell by 2^-10: there the control values of |identity - g'|, of degree at most 6, grow
-/// by (1 + 4 * 2^-10)^6 < 1.024. After the step g is what the linear map leaves, and half of the second derivative's at
-/// most 6 q |step_u + step_v|^2 (it is differences of values within q < 1 of each other, times at most 3): 7 |step|^2
-/// covers both, and the rounding of the parameters 2^-52.
+/// The exact map's control values differ from the given ones by at most the error, so g_i by s_i = error times the sum
+/// of |flattening|'s row i, and its derivatives, differences of control values times a degree of at most 4, by 8 s_i.
+/// The disc may leave the cell by 2^-10: there the control values of |identity - g'|, of degree at most 6, grow by
+/// (1 + 4 * 2^-10)^6 < 1.024. After the step g_i is what the linear map leaves, and half of the second derivatives',
+/// which are differences of values within a_ij of each other's centre, times at most 3: 3 sum_j a_ij |step_j| |step|_1,
+/// in the norm at most 3 q |step| |step|_1. Then there is the rounding of the parameters, 2^-52.
 template <class Bezier>
 double NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
-                                         const Matrix& flattening, double contraction) const {
-  const double size = flattening.norm();
-  const double q = 1.024 * (contraction + 16 * size * error_);
+                                         const Matrix& flattening, const Contraction& contraction) const {
+  const Parameter moved = error_ * flattening.cwiseAbs().rowwise().sum();
+  const double q = 1.024 * (contraction.share + 8 * contraction.weights.sum() * contraction.norm(moved));
   if (!(q < 1)) return std::numeric_limits<double>::infinity();
-  const double value =
-      (flattening * (f + jacobian * step)).norm() + 7 * step.squaredNorm() + size * error_ * (1.5 + 16 * step.norm());
-  const double radius = value / (1 - q) + 0x1p-52;
+  const double length = step.lpNorm<1>();
+  const double value = contraction.norm(flattening * (f + jacobian * step)) +
+                       3.1 * contraction.norm(step) * length + contraction.norm(moved) * (1 + 8 * length);
+  // In the norm a radius of r allows either parameter r at most.
+  const double radius = std::numbers::sqrt2 * value / (1 - q) + 0x1p-52;
   return radius <= 0x1p-10 ? radius : std::numeric_limits<double>::infinity();
 }
 

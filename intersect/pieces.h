@@ -71,16 +71,22 @@ class Pieces<BezierQuad> {
   /// A coordinate of a piece from that of the whole.
   const std::array<double, 16>& restrict_to(int number, const std::array<double, 16>& from,
                                             std::array<double, 16>& to) const {
-    if (number == 0) return to = from;
-    const Map &u = maps_[static_cast<std::size_t>(u_of(number))], &v = maps_[static_cast<std::size_t>(v_of(number))];
-    const Four row0(&from[0]), row1(&from[4]), row2(&from[8]), row3(&from[12]);
-    const Four u0(u.by_from[0].data()), u1(u.by_from[1].data()), u2(u.by_from[2].data()), u3(u.by_from[3].data());
-    for (std::size_t j = 0; j < 4; ++j) {
-      const std::array<double, 4>& w = v.by_to[j];
-      std::array<double, 4> row;
-      ((Four(w[0]) * row0 + Four(w[1]) * row1) + (Four(w[2]) * row2 + Four(w[3]) * row3)).store(row.data());
-      ((u0 * Four(row[0]) + u1 * Four(row[1])) + (u2 * Four(row[2]) + u3 * Four(row[3]))).store(&to[4 * j]);
+    const int u_number = u_of(number), v_number = v_of(number);
+    if (v_number == 0) {
+      to = from;
+    } else {
+      const Map& v = maps_[static_cast<std::size_t>(v_number)];
+      const Four row0(&from[0]), row1(&from[4]), row2(&from[8]), row3(&from[12]);
+      for (std::size_t j = 0; j < 4; ++j) {
+        const std::array<double, 4>& w = v.by_to[j];
+        ((Four(w[0]) * row0 + Four(w[1]) * row1) + (Four(w[2]) * row2 + Four(w[3]) * row3)).store(&to[4 * j]);
+      }
     }
+    if (u_number == 0) return to;
+    const Map& u = maps_[static_cast<std::size_t>(u_number)];
+    const Four u0(u.by_from[0].data()), u1(u.by_from[1].data()), u2(u.by_from[2].data()), u3(u.by_from[3].data());
+    for (std::size_t j = 0; j < 16; j += 4)
+      ((u0 * Four(to[j]) + u1 * Four(to[j + 1])) + (u2 * Four(to[j + 2]) + u3 * Four(to[j + 3]))).store(&to[j]);
     return to;
   }
 

@@ -28,14 +28,18 @@ class RayFrame {
             direction_.x() * x + direction_.y() * y + direction_.z() * z};
   }
   void project(const Net& from, Net& to) const {
-    const Four ox(origin_.x()), oy(origin_.y()), oz(origin_.z());
-    for (std::size_t i = 0; i < 16; i += 4) {
-      const Four x = Four(&from.x[i]) - ox, y = Four(&from.y[i]) - oy, z = Four(&from.z[i]) - oz;
-      const auto along = [&](const Vec3& axis) { return Four(axis.x()) * x + Four(axis.y()) * y + Four(axis.z()) * z; };
-      along(rp_).store(&to.x[i]);
-      along(cp_).store(&to.y[i]);
-      along(direction_).store(&to.z[i]);
-    }
+    project(from, Axis::x, to.x);
+    project(from, Axis::y, to.y);
+    project(from, Axis::z, to.z);
+  }
+
+  /// One of the ray's coordinates: the distance from RP, from CP, or along the ray.
+  enum class Axis { x, y, z };
+  void project(const Net& from, Axis axis, std::array<double, 16>& to) const {
+    const Vec3& along = axis == Axis::x ? rp_ : axis == Axis::y ? cp_ : direction_;
+    const Four ox(origin_.x()), oy(origin_.y()), oz(origin_.z()), ax(along.x()), ay(along.y()), az(along.z());
+    for (std::size_t i = 0; i < 16; i += 4)
+      (ax * (Four(&from.x[i]) - ox) + ay * (Four(&from.y[i]) - oy) + az * (Four(&from.z[i]) - oz)).store(&to[i]);
   }
 
   /// A direction in the ray's coordinates.

@@ -31,6 +31,10 @@ struct Domain<FaceKind::quad> {
   static bool contains(const Parameter& p) { return p.x() >= 0 && p.x() <= 1 && p.y() >= 0 && p.y() <= 1; }
   /// The domain's nearest point (Euclidean; the domain is convex, so the projection brings no two points apart).
   static Parameter nearest(const Parameter& p) { return p.cwiseMax(0.0).cwiseMin(1.0); }
+  /// True if a rectangle lies beyond one of the sides, given its centre and half its sides.
+  static bool is_outside(const Parameter& p, const Parameter& half) {
+    return ((p + half).array() < 0).any() || ((p - half).array() > 1).any();
+  }
 
   /// d(child parameter) / d(parent parameter): parent = origin(child) + scale(child) * child parameter.
   static double scale(int) { return 0.5; }
@@ -62,6 +66,9 @@ struct Domain<FaceKind::triangle> {
       return {along, 1 - along};
     }
     return p.cwiseMax(0.0).cwiseMin(1.0);
+  }
+  static bool is_outside(const Parameter& p, const Parameter& half) {
+    return ((p + half).array() < 0).any() || (p - half).sum() > 1;
   }
 
   static double scale(int child) { return child == 3 ? -0.5 : 0.5; }
