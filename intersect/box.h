@@ -77,7 +77,8 @@ struct TraversalRay {
     }
     scaled_length_ = scaled.norm();
     direction = scaled / scaled_length_;
-    // A component that is no normal number moves the ray by 2e-308 of its way: far below the rounding of any coordinate.
+    // A component that is no normal number moves the ray by 2e-308 of its way: far below the rounding of any
+    // coordinate.
     direction = (direction.array().abs() < std::numeric_limits<double>::min()).select(0.0, direction);
     near = ray.tmin * scaled_length_ * scale_;
     far = ray.tmax * scaled_length_ * scale_;

@@ -19,9 +19,9 @@ class Bvh {
   /// True if the ray's whole line passes by the bounds: asked before all else, for it needs neither a root nor a
   /// quotient, and half of a picture's rays may miss. (False says nothing.)
   ///
-  /// On either side of a plane through the line and an axis, by the products m_i d_j - m_j d_i, with m from the middle of
-  /// the bounds. Each product is off by 3 u, so their difference by less than 4 u |m| (|d_i| + |d_j|), which 2^-48 |m| on
-  /// top of each half extent covers; where they might underflow nothing is said.
+  /// On either side of a plane through the line and an axis, by the products m_i d_j - m_j d_i, with m from the middle
+  /// of the bounds. Each product is off by 3 u, so their difference by less than 4 u |m| (|d_i| + |d_j|), which 2^-48
+  /// |m| on top of each half extent covers; where they might underflow nothing is said.
   bool is_passed_by(const Ray& ray) const {
     const Vec3 m = ray.origin - middle_, d = ray.direction.cwiseAbs();
     const double distance = m.cwiseAbs().maxCoeff();

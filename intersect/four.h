@@ -121,9 +121,7 @@ class Four {
     for (std::size_t i = 0; i < 4; ++i) bits |= (a.value_[i] <= b.value_[i]) << i;
     return bits;
   }
-  friend Four rotated(const Four& a) {
-    return {a.value_[1], a.value_[2], a.value_[3], a.value_[0]};
-  }
+  friend Four rotated(const Four& a) { return {a.value_[1], a.value_[2], a.value_[3], a.value_[0]}; }
   friend Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
     const auto sum = [](const Four& x) { return (x.value_[0] + x.value_[1]) + (x.value_[2] + x.value_[3]); };
     return {sum(a), sum(b), sum(c), sum(d)};

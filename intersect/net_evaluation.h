@@ -22,15 +22,13 @@ class NetEvaluation {
 
 namespace detail {
 
-/// The cubic Bernstein polynomials and their derivatives at a parameter, made in registers: what is stored a number at a
-/// time and loaded four at a time waits for the stores.
+/// The cubic Bernstein polynomials and their derivatives at a parameter, made in registers: what is stored a number at
+/// a time and loaded four at a time waits for the stores.
 struct Cubics {
   double t, s = 1 - t;
 
   Four value() const { return Four(s, s, s, t) * Four(s, s, t, t) * Four(s, 3 * t, 3 * t, t); }
-  Four first() const {
-    return Four(-3 * s, 3 * s, 3 * t, 3 * t) * Four(s, s - 2 * t, 2 * s - t, t);
-  }
+  Four first() const { return Four(-3 * s, 3 * s, 3 * t, 3 * t) * Four(s, s - 2 * t, 2 * s - t, t); }
   Four second() const { return Four(6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t); }
 };
 

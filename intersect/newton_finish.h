@@ -214,9 +214,9 @@ Eigen::Vector2d NewtonFinish<Bezier>::slope(const Net& cell) {
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
   const Eigen::Vector2d mean(Bezier::mean_du(cell.z), Bezier::mean_dv(cell.z));
-  // Past this ratio of what the cell's shadow measures along and across, the direction across is taken for rounding. (By
-  // the normal equations, which square the ratio, four digits would be left of (a, b), and of a patch collapsed to a
-  // segment that crosses the ray 4e7 cells would pass for nearer than its point on the ray.)
+  // Past this ratio of what the cell's shadow measures along and across, the direction across is taken for rounding.
+  // (By the normal equations, which square the ratio, four digits would be left of (a, b), and of a patch collapsed to
+  // a segment that crosses the ray 4e7 cells would pass for nearer than its point on the ray.)
   constexpr double flattest = 1e-6;
   Eigen::Vector2d ab;
   if (std::abs(jacobian.determinant()) > flattest * jacobian.squaredNorm()) {
@@ -272,7 +272,8 @@ bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
 /// with the long one many times as much as the reverse; weights take that out, where the Euclidean norm does not: on a
 /// car's creases they leave a fifth of the splits. The roundings of some 10 u a value are far below the 1e-9 added.
 template <class Bezier>
-auto NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y) -> Contraction {
+auto NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y)
+    -> Contraction {
   constexpr double degree = Bezier::degree;
   double xu = 0, yu = 0, xv = 0, yv = 0;
   if constexpr (std::is_same_v<Bezier, BezierQuad>) {
@@ -385,8 +386,8 @@ double NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix&
   const double q = 1.024 * (contraction.share + 8 * contraction.weights.sum() * contraction.norm(moved));
   if (!(q < 1)) return std::numeric_limits<double>::infinity();
   const double length = step.lpNorm<1>();
-  const double value = contraction.norm(flattening * (f + jacobian * step)) +
-                       3.1 * contraction.norm(step) * length + contraction.norm(moved) * (1 + 8 * length);
+  const double value = contraction.norm(flattening * (f + jacobian * step)) + 3.1 * contraction.norm(step) * length +
+                       contraction.norm(moved) * (1 + 8 * length);
   // In the norm a radius of r allows either parameter r at most.
   const double radius = std::numbers::sqrt2 * value / (1 - q) + 0x1p-52;
   return radius <= 0x1p-10 ? radius : std::numeric_limits<double>::infinity();

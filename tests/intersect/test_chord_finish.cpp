@@ -97,7 +97,7 @@ TEST_CASE("Chord faces lose no hit outside the band of their tolerance", "[inter
     }
 }
 
-TEST_CASE("Nor on any model of data/ and the shapes", "[intersect][chord]") {
+TEST_CASE("Nor on any model of data/ and the shapes", "[intersect][chord][sweep]") {
   for (const Model& model : all_models()) {
     const Reference reference(model);
     CAPTURE(model.name, model.scheme);
@@ -211,7 +211,7 @@ Model bulging(const std::string& scheme, double pull, double depth) {
 
 }  // namespace
 
-TEST_CASE("Without the test of patches that bulge beyond their chords rays are lost", "[intersect][chord]") {
+TEST_CASE("Without the test of patches that bulge beyond their chords rays are lost", "[intersect][chord][sweep]") {
   Agreements with, without;
   for (const std::string scheme : {"loop", "catmark"})
     for (const double pull : {0.5, 0.6, 1.0, 1.2, 1.5})

@@ -122,7 +122,7 @@ void check_closest_against_brute_force(const Model& model, int count, int steps)
 
 }  // namespace
 
-TEST_CASE("The closest point is that of brute force", "[intersect][closest]") {
+TEST_CASE("The closest point is that of brute force", "[intersect][closest][sweep]") {
   for (const Model& model : test_models()) check_closest_against_brute_force(model, 24, 6);
 }
 

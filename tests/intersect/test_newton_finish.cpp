@@ -180,8 +180,8 @@ TEST_CASE("A ray that touches a fold hits, one beside it misses", "[intersect][f
   CHECK(!solve(folded(-0.5, 1)));
 }
 
-// Each of its points is met along a curve of parameters, at one distance, which the cells around that curve do not show by
-// their own distances alone.
+// Each of its points is met along a curve of parameters, at one distance, which the cells around that curve do not show
+// by their own distances alone.
 TEMPLATE_TEST_CASE("Where a patch is collapsed to a segment, a ray across it asks few cells", "[intersect][finish]",
                    BezierQuad, BezierTriangle) {
   Random random(12);

@@ -331,7 +331,7 @@ TEST_CASE("An overlap does not depend on what was asked before, on threads or on
   CHECK(fresh.statistics().shapes + fresh.statistics().points == 2 * shapes.size());
 }
 
-TEST_CASE("Surfaces without polynomials overlap", "[intersect][overlaps][plugin]") {
+TEST_CASE("Surfaces without polynomials overlap", "[intersect][overlaps][plugin][sweep]") {
   Random random(27);
   for (const bool quads : {false, true}) {
     const auto masks = load_plugin(test::example_plugin(quads ? "kobbelt" : "butterfly")).masks;

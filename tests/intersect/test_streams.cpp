@@ -13,7 +13,7 @@
 
 namespace shaolin {
 
-TEST_CASE("A stream of rays is answered as each ray alone is", "[intersect][streams]") {
+TEST_CASE("A stream of rays is answered as each ray alone is", "[intersect][streams][sweep]") {
   for (const int threads : {1, 2, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     for (const Model& model : all_models()) {

@@ -169,7 +169,7 @@ TEST_CASE("Radius 2: evaluation gives the limit points of the refined mesh", "[s
   SECTION("kobbelt") { check_evaluation<FaceKind::quad>(); }
 }
 
-TEST_CASE("Radius 2: rays at the surface meet it", "[intersect][radius2]") {
+TEST_CASE("Radius 2: rays at the surface meet it", "[intersect][radius2][sweep]") {
   SECTION("butterfly") { check_rays<FaceKind::triangle>(8); }
   SECTION("kobbelt") { check_rays<FaceKind::quad>(8); }
 }

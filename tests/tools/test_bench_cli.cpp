@@ -94,7 +94,7 @@ void check_times(const Table& times, std::size_t row, int runs) {
 
 }  // namespace
 
-TEST_CASE("bench paper counts every hit once, and its files can be read", "[tools][cli][bench]") {
+TEST_CASE("bench paper counts every hit once, and its files can be read", "[tools][cli][bench][sweep]") {
   const Folder folder;
   const Outcome outcome = folder.run({"bench", "paper", "--size", "40x40", "--runs", "2", "--level", "3", "--only",
                                       "frogship", "--scenes", data_file("scenes"), "--report", folder / "out/paper"});
@@ -150,7 +150,7 @@ TEST_CASE("bench paper estimates levels that would not fit", "[tools][cli][bench
   CHECK(memory.number(3, "estimated") == 1);
 }
 
-TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][bench]") {
+TEST_CASE("bench pareto measures every phase of several scenes", "[tools][cli][bench][sweep]") {
   const Folder folder;
   const Outcome outcome =
       folder.run({"bench", "pareto", data_file("torus.obj"), data_file("loop_torus.obj"), "--size", "32x32", "--runs",
@@ -304,7 +304,7 @@ TEST_CASE("bench scaling tells what each size costs", "[tools][cli][bench]") {
   CHECK_FALSE(std::filesystem::exists(folder / "out/torus-200.obj"));
 }
 
-TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli][bench]") {
+TEST_CASE("bench lost counts its rays, and fails if it lists any", "[tools][cli][bench][sweep]") {
   const Folder folder;
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{}, {"--a3", "--threads", "1"}}) {
     std::vector<std::string> words{

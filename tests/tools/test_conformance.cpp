@@ -105,7 +105,7 @@ TEST_CASE("Known defects of published rules are findings", "[tools][conformance]
   }
 }
 
-TEST_CASE("Each slip is caught by its check", "[tools][conformance]") {
+TEST_CASE("Each slip is caught by its check", "[tools][conformance][sweep]") {
   CHECK(failures_of<EdgeOfFacePoints>().count("regular basis") == 1);
   CHECK(failures_of<WrongCreaseLimit>().count("crease is its curve") == 1);
   CHECK(failures_of<WrongCreaseLimit>().count("limit masks") == 1);

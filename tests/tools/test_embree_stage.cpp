@@ -34,7 +34,7 @@ Comparison compare(const Scene& ours, const EmbreeStage& theirs, double distance
 }  // namespace
 
 // Groups, a mirrored and an uneven transform, both kinds of faces.
-TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench]") {
+TEST_CASE("Embree's variant of Uniform meets the same triangles", "[tools][bench][sweep]") {
   const int level = GENERATE(1, 4);
   const Stage stage = load_stage({data_file("scenes/mirrors.json"), {}, {}});
   SceneOptions options;

@@ -50,7 +50,7 @@ Intersector spoiled(const Scene& scene, Spoil spoil) {
 
 }  // namespace
 
-TEST_CASE("Exact arithmetic confirms certificates", "[tools][exact]") {
+TEST_CASE("Exact arithmetic confirms certificates", "[tools][exact][sweep]") {
   for (const std::string file : {"torus.obj", "cube_creases.obj", "tetrahedron.obj", "sail.obj"}) {
     CAPTURE(file);
     const RefereedModel subject(file);
@@ -65,7 +65,7 @@ TEST_CASE("Exact arithmetic confirms certificates", "[tools][exact]") {
   }
 }
 
-TEST_CASE("Exact arithmetic catches false certificates", "[tools][exact]") {
+TEST_CASE("Exact arithmetic catches false certificates", "[tools][exact][sweep]") {
   const RefereedModel subject("cube_creases.obj");
   const std::size_t certified = subject.hits(Intersector::of(subject.scene)).certified;
   const auto caught = [&](const auto& spoil) {

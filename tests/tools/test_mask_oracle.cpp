@@ -36,7 +36,7 @@ TEST_CASE("Plain refinement by the masks gives OpenSubdiv's surface", "[tools][o
 
 /// OpenSubdiv has none. Cones stay cones on the way, also where a mesh is refined once as a whole, and creases and
 /// darts win over them.
-TEST_CASE("Plain refinement knows conical vertices", "[tools][oracle]") {
+TEST_CASE("Plain refinement knows conical vertices", "[tools][oracle][sweep]") {
   for (Model& model : feature_models()) {
     model.mesh.cones = {0, 3};
     CAPTURE(model.name);

@@ -71,7 +71,7 @@ TEST_CASE("masks that do not converge exit with 3 and leave no file", "[tools][p
   CHECK(folder.list().empty());
 }
 
-TEST_CASE("weights out of all proportion end in a message, and soon", "[tools][plugin]") {
+TEST_CASE("weights out of all proportion end in a message, and soon", "[tools][plugin][sweep]") {
   const Folder folder;
   const std::string huge = bad_plugin("huge"), model = data_file("whale.obj");
   const std::string params = folder.write("params.csv", "0,0,0.3,0.3\n5,0,0.1,0.2\n"), rays = data_file("rays.csv");
@@ -115,7 +115,7 @@ TEST_CASE("the default camera frames the surface of a plug-in", "[tools][plugin]
   CHECK(pixels_hit({"--plugin", example_plugin("kobbelt")}) > pixels_hit({"--scheme", "catmark"}) / 3);
 }
 
-TEST_CASE("The example schemes that are right pass the kit, the toy does not", "[tools][plugin]") {
+TEST_CASE("The example schemes that are right pass the kit, the toy does not", "[tools][plugin][sweep]") {
   const Folder folder;
   for (const std::string name : {"butterfly", "kobbelt", "plain"}) {
     const Outcome outcome = folder.run({"scheme", "check", "--plugin", example_plugin(name), "--valence", "12"});
@@ -159,7 +159,7 @@ TEST_CASE("query, eval, info and render take a plug-in", "[tools][plugin]") {
   CHECK(folder.run({"render", model, "--plugin", plain, "-o", folder / "out.exr", "--size", "16x16"}).status == 0);
 }
 
-TEST_CASE("validate holds a plug-in against plain refinement by its masks", "[tools][plugin]") {
+TEST_CASE("validate holds a plug-in against plain refinement by its masks", "[tools][plugin][sweep]") {
   const Folder folder;
   const auto validate = [&](const std::string& model, const std::string& plugin) {
     return folder.run(
@@ -183,7 +183,7 @@ TEST_CASE("validate holds a plug-in against plain refinement by its masks", "[to
   }
 }
 
-TEST_CASE("scheme show and check name the rules of a plug-in", "[tools][plugin]") {
+TEST_CASE("scheme show and check name the rules of a plug-in", "[tools][plugin][sweep]") {
   const Folder folder;
   const std::string rules = "no crease rules: the cubic B-spline curve's are used";
   const Outcome plain = folder.run({"scheme", "check", "--plugin", example_plugin("plain"), "--report", folder / "r"});

@@ -92,7 +92,7 @@ TEST_CASE("validate passes on sound models", "[tools][validate]") {
   }
 }
 
-TEST_CASE("validate holds conical vertices against plain refinement", "[tools][validate]") {
+TEST_CASE("validate holds conical vertices against plain refinement", "[tools][validate][sweep]") {
   const Folder folder;
   const std::string octahedron =
       "v 0 0 1\nv 1.1 0 0\nv 0 1 0.1\nv -1 0.1 0\nv 0 -1 0\nv 0 0.1 -1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 6 3 2\n"
