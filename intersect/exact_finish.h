@@ -67,15 +67,16 @@ class ExactFinish {
     Parameter at;
     int level;
     double distance;
-    double reach = 0;                                         ///< see PatchHit
-    bool is_proven = false;                                   ///< see PatchHit
-    double radius = std::numeric_limits<double>::infinity();  ///< see PatchHit
-    double error = 0;                                         ///< of coordinates in the ray's frame
+    double reach = 0;                               ///< see PatchHit
+    bool is_proven = false;                         ///< see PatchHit
+    Parameter radius = PatchHit::nothing_proven();  ///< see PatchHit
+    double error = 0;                               ///< of coordinates in the ray's frame
 
     /// See certificate.h.
     bool is_certified() const {
-      if (!(radius < 1) || !patch->is_polynomial()) return false;
-      return holds_disc(at, radius) || (radius <= smooth_radius && polynomial_of(*patch).is_smooth_across());
+      const double largest = radius.maxCoeff();
+      if (!(largest < 1) || !patch->is_polynomial()) return false;
+      return holds_rectangle(at, radius) || (largest <= smooth_radius && polynomial_of(*patch).is_smooth_across());
     }
   };
 
@@ -181,9 +182,10 @@ class ExactFinish {
   /// Across a side where second derivatives agree, a patch and its neighbour's polynomial differ by the third power of
   /// the distance: at this one, by less than rounding.
   static constexpr double smooth_radius = 0x1p-20;
-  static bool holds_disc(const Parameter& centre, double radius) {
-    return D::contains(centre - Parameter(radius, radius)) && D::contains(centre + Parameter(radius, radius)) &&
-           D::contains(centre + Parameter(radius, -radius)) && D::contains(centre + Parameter(-radius, radius));
+  static bool holds_rectangle(const Parameter& centre, const Parameter& half) {
+    const Parameter other(half.x(), -half.y());
+    return D::contains(centre - half) && D::contains(centre + half) && D::contains(centre - other) &&
+           D::contains(centre + other);
   }
   static double position_error(const Found& found);
   static LimitSample sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface);
@@ -208,14 +210,28 @@ LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& a
   return sample;
 }
 
-/// Of a certified hit: the zero is within the radius, over which the surface moves by no more than its derivatives
-/// there say. Those are at most the degree times differences of control points, in a disc that leaves the patch by so
-/// little, too. Both positions carry the error of coordinates.
+/// Of a certified hit: the zero is within the radius r, over which the surface moves by what its derivatives say, and
+/// half of its second derivatives. Those are at most 4 n (n - 1) times the extent of the control points; below 2^-30
+/// they are lost among the errors of coordinates, which both positions carry.
 template <Scheme S>
 double ExactFinish<S>::position_error(const Found& found) {
-  const Box hull = hull_of(polynomial_of(*found.patch).net());
-  const double steepest = Polynomial::degree * (hull.upper - hull.lower).norm();
-  return 1.024 * std::numbers::sqrt2 * steepest * found.radius + 2 * std::numbers::sqrt3 * found.error;
+  const Net& net = polynomial_of(*found.patch).net();
+  const NetEvaluation<Polynomial> evaluation(found.at);
+  Vec3 du, dv;
+  Eigen::Index axis = 0;
+  for (const auto* points : {&net.x, &net.y, &net.z}) {
+    std::array<double, 4> at;  // value, du, dv
+    evaluation(*points).store(at.data());
+    du[axis] = at[1];
+    dv[axis++] = at[2];
+  }
+  const Parameter& r = found.radius;
+  double error = du.norm() * r.x() + dv.norm() * r.y() + 2 * std::numbers::sqrt3 * found.error;
+  if (const double length = r.sum(); length > 0x1p-30) {
+    const Box hull = hull_of(net);
+    error += 2.1 * Polynomial::degree * (Polynomial::degree - 1) * (hull.upper - hull.lower).norm() * length * length;
+  }
+  return error;
 }
 
 template <Scheme S>
@@ -289,7 +305,7 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   solve(solver, cell, [&](PatchHit hit) {
     const SubDomain piece = Pieces<Polynomial>::domain(number);
     hit.at = piece(hit.at);
-    hit.radius *= piece.scale.cwiseAbs().maxCoeff();
+    hit.radius = hit.radius.cwiseProduct(piece.scale.cwiseAbs());
     take(patch, hit, patch.place().part(piece).level());
   });
   cells_ = solver.cells();

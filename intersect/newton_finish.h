@@ -22,9 +22,11 @@ struct PatchHit {
   double distance = std::numeric_limits<double>::infinity();
   double reach = 0;        ///< how far the piece of surface that it stands for goes along the ray
   bool is_proven = false;  ///< to be the only one of its cell
-  /// In the parameters: the zero of the exact map is proven to be no farther. It may lie beyond the patch's sides,
+  /// Of either parameter: the zero of the exact map is proven to be no farther. It may lie beyond the patch's sides,
   /// where its polynomial goes on. Infinite if nothing is proven.
-  double radius = std::numeric_limits<double>::infinity();
+  Parameter radius = nothing_proven();
+
+  static Parameter nothing_proven() { return Parameter::Constant(std::numeric_limits<double>::infinity()); }
 };
 
 /// Finds the nearest zero of (x, y) with z in [near, far] on a Bezier patch given in a ray's frame (x, y: distances
@@ -95,6 +97,7 @@ class NewtonFinish {
   struct Contraction {
     double share;
     Parameter weights;
+    Matrix most;  ///< the largest |identity - g'|, place by place
     double norm(const Parameter& p) const { return p.cwiseAbs().cwiseQuotient(weights).maxCoeff(); }
   };
 
@@ -112,8 +115,8 @@ class NewtonFinish {
   static Contraction contraction(const std::array<double, 16>& x, const std::array<double, 16>& y);
   Verdict newton(const Net& cell, const Matrix& flattening, const Contraction& contraction, Parameter at,
                  PatchHit& hit);
-  double zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
-                     const Matrix& flattening, const Contraction& contraction) const;
+  Parameter zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
+                        const Matrix& flattening, const Contraction& contraction) const;
   /// Of a hit in a cell's parameters.
   void accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale);
 
@@ -139,7 +142,7 @@ void NewtonFinish<Bezier>::accept(const PatchHit& hit, const Parameter& origin, 
   if (hit.distance < near_ - error_ || hit.distance > horizon()) return;
   PatchHit own = hit;
   own.at = origin + scale.cwiseProduct(hit.at);
-  own.radius = scale.cwiseAbs().maxCoeff() * hit.radius;
+  own.radius = scale.cwiseAbs().cwiseProduct(hit.radius);
   if (all_) return all_->push_back(own);
   best_ = own;
   found_ = has_hit_ = true;
@@ -275,38 +278,42 @@ template <class Bezier>
 auto NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const std::array<double, 16>& y)
     -> Contraction {
   constexpr double degree = Bezier::degree;
-  double xu = 0, yu = 0, xv = 0, yv = 0;
+  // Rows of quads are registers: their differences among each other go along v, those of their places along u. Of
+  // triangles registers hold rows of 5, 4, 3 and 2 points, or parts of two; what is a difference across rows is masked.
+  const Four scale(degree), one(1);
+  Four most_xu(0.0), most_yu(0.0), most_xv(0.0), most_yv(0.0);
+  const auto along_u = [&](Four dx, Four dy, Four mask) {
+    most_xu = larger(abs(mask * (scale * dx - one)), most_xu);
+    most_yu = larger(abs(mask * (scale * dy)), most_yu);
+  };
+  const auto along_v = [&](Four dx, Four dy, Four mask) {
+    most_xv = larger(abs(mask * (scale * dx)), most_xv);
+    most_yv = larger(abs(mask * (scale * dy - one)), most_yv);
+  };
+  const auto step = [](const std::array<double, 16>& p, std::size_t from, std::size_t to) {
+    return Four(&p[to]) - Four(&p[from]);
+  };
+  const Four all(1), first_three(1, 1, 1, 0), two_and_last(1, 1, 0, 1);
   if constexpr (std::is_same_v<Bezier, BezierQuad>) {
-    // Rows are registers: their differences among each other go along v, those of their places along u.
-    const Four three(degree), one(1);
-    Four most_xu(0.0), most_yu(0.0), most_xv(0.0), most_yv(0.0);
     for (std::size_t j = 0; j < 16; j += 4) {
       const Four xj(&x[j]), yj(&y[j]);
-      most_xu = larger(abs(three * (rotated(xj) - xj) - one), most_xu);
-      most_yu = larger(abs(three * (rotated(yj) - yj)), most_yu);
-      if (j == 12) break;
-      most_xv = larger(abs(three * (Four(&x[j + 4]) - xj)), most_xv);
-      most_yv = larger(abs(three * (Four(&y[j + 4]) - yj) - one), most_yv);
+      along_u(rotated(xj) - xj, rotated(yj) - yj, first_three);
+      if (j < 12) along_v(step(x, j, j + 4), step(y, j, j + 4), all);
     }
-    const auto largest = [](Four four, std::size_t count) {
-      std::array<double, 4> v;
-      four.store(v.data());
-      return count == 3 ? std::max({v[0], v[1], v[2]}) : std::max({v[0], v[1], v[2], v[3]});
-    };
-    xu = largest(most_xu, 3);
-    yu = largest(most_yu, 3);
-    xv = largest(most_xv, 4);
-    yv = largest(most_yv, 4);
   } else {
-    for (const auto& [from, to] : Bezier::u_pairs) {
-      xu = std::max(xu, std::abs(degree * (x[to] - x[from]) - 1));
-      yu = std::max(yu, std::abs(degree * (y[to] - y[from])));
-    }
-    for (const auto& [from, to] : Bezier::v_pairs) {
-      xv = std::max(xv, std::abs(degree * (x[to] - x[from])));
-      yv = std::max(yv, std::abs(degree * (y[to] - y[from]) - 1));
-    }
+    along_u(step(x, 0, 1), step(y, 0, 1), all);
+    along_u(step(x, 5, 6), step(y, 5, 6), first_three);
+    along_u(step(x, 9, 10), step(y, 9, 10), two_and_last);  // with 12 to 13
+    along_v(step(x, 0, 5), step(y, 0, 5), all);
+    along_v(step(x, 5, 9), step(y, 5, 9), first_three);
+    along_v(step(x, 9, 12), step(y, 9, 12), two_and_last);  // with 12 to 15, the last point's second place
   }
+  const auto largest = [](Four four) {
+    std::array<double, 4> v;
+    four.store(v.data());
+    return std::max(std::max(v[0], v[1]), std::max(v[2], v[3]));
+  };
+  const double xu = largest(most_xu), yu = largest(most_yu), xv = largest(most_xv), yv = largest(most_yv);
   // Equal weights are as good where they leave little.
   constexpr double little = 0.5, most = 0x1p20;
   double ratio = 1;  // of the weight of v to that of u
@@ -316,7 +323,9 @@ auto NewtonFinish<Bezier>::contraction(const std::array<double, 16>& x, const st
     ratio = ratio > 1 / most ? std::min(ratio, most) : 1 / most;
   }
   const double share = std::max(xu + xv * ratio, yv + yu / ratio) + 1e-9;
-  return {share, ratio < 1 ? Parameter(1, ratio) : Parameter(1 / ratio, 1)};
+  Contraction result{share, ratio < 1 ? Parameter(1, ratio) : Parameter(1 / ratio, 1), {}};
+  result.most << xu, xv, yu, yv;
+  return result;
 }
 
 /// On a cell where g = flattening * f has |identity - g'| <= q < 1, the map T(x) = x - g(x) brings every x nearer to a
@@ -360,7 +369,7 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
       std::array<double, 4> at_z;
       evaluation(cell.z).store(at_z.data());
       hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true,
-             zero_radius(f, jacobian, whole, flattening, contraction) + (whole - last).norm()};
+             zero_radius(f, jacobian, whole, flattening, contraction) + (whole - last).cwiseAbs()};
       return Verdict::found;
     }
     const Parameter next = D::nearest(at + step);
@@ -370,27 +379,36 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
   return Verdict::unknown;
 }
 
-/// How far at most the zero of the exact map lies from at + step, by the contraction principle; infinite if that proves
-/// none. `f` and `jacobian` are the map and its derivative at `at`.
+/// How far at most the zero of the exact map F lies from at + step, by the contraction principle; infinite if that
+/// proves none. `f` and J are the given map and its derivative at `at`.
 ///
-/// The exact map's control values differ from the given ones by at most the error, so g_i by s_i = error times the sum
-/// of |flattening|'s row i, and its derivatives, differences of control values times a degree of at most 4, by 8 s_i.
-/// The disc may leave the cell by 2^-10: there the control values of |identity - g'|, of degree at most 6, grow by
-/// (1 + 4 * 2^-10)^6 < 1.024. After the step g_i is what the linear map leaves, and half of the second derivatives',
-/// which are differences of values within a_ij of each other's centre, times at most 3: 3 sum_j a_ij |step_j| |step|_1,
-/// in the norm at most 3 q |step| |step|_1. Then there is the rounding of the parameters, 2^-52.
+/// The exact map's control values differ from the given ones by at most the error, and its derivatives, differences of
+/// control values times a degree of at most 4, by 8 errors. So that it has one zero in the cell at most, if F' stays
+/// within q < 1: g' moves by 8 s_i, with s = |flattening| (error, error).
+///
+/// Where it is, x - J^-1 F(x) says, which maps the rectangle at + step +- r into itself: with J^-1 F = M^-1 g for
+/// M = flattening J, second derivatives of M^-1 g are at most 6 |M^-1| a, as those of g are differences of values
+/// within a_ij of each other's centre, times at most 3. At the middle that leaves b = |J^-1 (f + J step)|
+/// + 3 |M^-1| a |step| |step|_1 + |J^-1| (error, error) (1 + 8 |step|_1), and the derivative of the map is at most
+/// C = 6 |M^-1| a |step and r|_1 + 8 |J^-1| errors. r = 5/4 b it is if C r <= b / 4. The rectangle may leave the cell
+/// by 2^-10: there the control values of identity - g', of degree at most 6, grow by (1 + 4 * 2^-10)^6 < 1.024. Then
+/// there is the rounding of the parameters, 2^-52.
 template <class Bezier>
-double NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
-                                         const Matrix& flattening, const Contraction& contraction) const {
-  const Parameter moved = error_ * flattening.cwiseAbs().rowwise().sum();
-  const double q = 1.024 * (contraction.share + 8 * contraction.weights.sum() * contraction.norm(moved));
-  if (!(q < 1)) return std::numeric_limits<double>::infinity();
+Parameter NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian,
+                                            const Eigen::Vector2d& step, const Matrix& flattening,
+                                            const Contraction& contraction) const {
+  const Parameter flattened = error_ * flattening.cwiseAbs().rowwise().sum();
+  const double q = 1.024 * (contraction.share + 8 * contraction.weights.sum() * contraction.norm(flattened));
+  const Matrix inverse = jacobian.inverse();
+  const Parameter moved = error_ * inverse.cwiseAbs().rowwise().sum();
+  const Matrix bend = 6 * 1.024 * (flattening * jacobian).inverse().cwiseAbs() * contraction.most;
   const double length = step.lpNorm<1>();
-  const double value = contraction.norm(flattening * (f + jacobian * step)) + 3.1 * contraction.norm(step) * length +
-                       contraction.norm(moved) * (1 + 8 * length);
-  // In the norm a radius of r allows either parameter r at most.
-  const double radius = std::numbers::sqrt2 * value / (1 - q) + 0x1p-52;
-  return radius <= 0x1p-10 ? radius : std::numeric_limits<double>::infinity();
+  const Parameter off =
+      (inverse * (f + jacobian * step)).cwiseAbs() + 0.5 * length * (bend * step.cwiseAbs()) + (1 + 8 * length) * moved;
+  const Parameter radius = 1.25 * off;
+  const Parameter varies = (length + radius.sum()) * (bend * radius) + 8 * radius.sum() * moved;
+  const bool is_proven = q < 1 && (varies.array() <= 0.25 * off.array()).all() && (radius.array() <= 0x1p-10).all();
+  return is_proven ? Parameter(radius.array() + 0x1p-52) : PatchHit::nothing_proven();
 }
 
 /// The axis along which alone a cell is to be halved: seen from the ray its points move 16 times as far along it as
