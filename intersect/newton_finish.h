@@ -339,6 +339,8 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     -> Verdict {
   const double q = contraction.share, slack = contraction.norm(error_ * flattening.cwiseAbs().rowwise().sum());
   constexpr int most_steps = 12;
+  double least = error_;  // of those on the ray how far x and y are off
+  bool is_found = false;
   for (int i = 0; i < most_steps; ++i) {
     ++counters_.newton_steps;
     const NetEvaluation<Bezier> evaluation(at);
@@ -346,7 +348,9 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     evaluation(cell.x).store(at_x.data());
     evaluation(cell.y).store(at_y.data());
     const Eigen::Vector2d f(at_x[0], at_y[0]);
-    const bool on_ray = f.cwiseAbs().maxCoeff() <= error_;
+    const double off = f.cwiseAbs().maxCoeff();
+    const bool on_ray = off <= error_;
+    if (is_found && !(off <= 0.5 * least)) break;
     if (!on_ray) {
       const Eigen::Vector2d g = flattening * f;
       const Parameter image = at - g;
@@ -359,8 +363,8 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     jacobian << at_x[1], at_x[2], at_y[1], at_y[2];
     const Eigen::Vector2d step = -(jacobian.inverse() * f);
     // The step from here wins the last digits: it leaves the square of its length, which is below rounding if it is
-    // short and stays in the cell. To first order the distance follows it. (A long one, of a grazing ray, is not
-    // taken.)
+    // short and stays in the cell. To first order the distance follows it. Of a grazing ray, where points within the
+    // error are far from each other, steps go on as long as each halves what is left.
     constexpr double shortest = 1e-8;
     const bool is_last = step.squaredNorm() <= shortest * shortest;
     if (on_ray || (is_last && D::contains(at + step))) {
@@ -370,13 +374,15 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
       evaluation(cell.z).store(at_z.data());
       hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true,
              zero_radius(f, jacobian, whole, flattening, contraction) + (whole - last).cwiseAbs()};
-      return Verdict::found;
+      if (is_last) return Verdict::found;
+      is_found = true;
+      least = off;
     }
     const Parameter next = D::nearest(at + step);
     if (next == at || !next.allFinite()) break;
     at = next;
   }
-  return Verdict::unknown;
+  return is_found ? Verdict::found : Verdict::unknown;
 }
 
 /// How far at most the zero of the exact map F lies from at + step, by the contraction principle; infinite if that

@@ -200,6 +200,24 @@ TEMPLATE_TEST_CASE("Where a patch is collapsed to a segment, a ray across it ask
   }
 }
 
+// The points within the error of a ray that grazes the surface are far from each other; the map says more.
+TEST_CASE("A grazing ray is met as exactly as the map allows", "[intersect][finish]") {
+  Random random(13);
+  for (int k = 0; k < 100; ++k) {
+    const double slope = std::exp2(random.uniform(-36, -30)), bend = random.uniform(-0.3, 0.3);
+    const double at = random.uniform(0.2, 0.8);
+    // x = slope (w + bend w^2) for w = u - at; in Bezier form squares are products of neighbours, (i (i - 1)) / 6.
+    BezierQuad patch = quad([&](double u, double v) { return Vec3(0, v - 0.375, 3 + u); });
+    for (std::size_t j = 0; j < 16; ++j) {
+      const double i = static_cast<double>(j % 4), u = i / 3, square = i * (i - 1) / 6;
+      patch.b[j].x() = slope * (u - at + bend * (square - 2 * at * u + at * at));
+    }
+    const auto hit = solve(patch);
+    REQUIRE(hit);
+    CHECK(std::abs(hit->distance - (3 + at)) <= 1e-15 / slope);
+  }
+}
+
 TEMPLATE_TEST_CASE("A ray through a corner or a side hits", "[intersect][finish]", BezierQuad, BezierTriangle) {
   Random random(52);
   using D = typename TestType::DomainType;

@@ -12,7 +12,7 @@ namespace {
 void closest_in_arena(const ClosestOptions& options) {
   Stage stage = load_stage(options.model);
   const CsvTable points = options.points.read();
-  const Scene scene = build_scene(stage);
+  const Scene scene = build_scene(stage, options.scene);
   answer_rows(
       points, options.output, "point", std::string("found,distance,") + place_columns, stage.is_scene,
       [&](const auto& row) { return scene.closest_point(vector_at(row, 0), options.radius); },
@@ -20,6 +20,7 @@ void closest_in_arena(const ClosestOptions& options) {
         writer.field(closest.distance);
         write_place(writer, closest.at, closest.sample);
       });
+  report_budget(scene, options.scene);
 }
 
 }  // namespace
@@ -45,6 +46,7 @@ void add_closest(CLI::App& app, Command& command) {
          "dissolved")
       ->required()
       ->type_name("FILE");
+  add_budget_option(*sub, options->scene);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     expect_rows({&options->points}, options->output, inputs_of(options->model));

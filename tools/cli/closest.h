@@ -15,6 +15,7 @@ inline RowFormat point_format() { return {"point", "points", "x,y,z", {3}, "A po
 
 struct ClosestOptions {
   ModelOptions model;
+  SceneOptions scene;
   RowInput points{point_format()};                          ///< --points or --point
   double radius = std::numeric_limits<double>::infinity();  ///< --radius
   std::filesystem::path output;                             ///< -o

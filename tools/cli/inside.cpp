@@ -12,7 +12,7 @@ namespace {
 void inside_in_arena(const InsideOptions& options) {
   Stage stage = load_stage(options.model);
   const CsvTable points = options.points.read();
-  const Scene scene = build_scene(stage);
+  const Scene scene = build_scene(stage, options.scene);
   CsvWriter writer(options.output, "point,inside,signed_distance");
   process_rows(
       points, [&](std::size_t row) { return scene.signed_distance(vector_at(points.row(row), 0)); },
@@ -22,6 +22,7 @@ void inside_in_arena(const InsideOptions& options) {
   writer.commit();
   std::cerr << points.row_count() << " points, " << scene.statistics().uncertified
             << " of them by hits that are not certified\n";
+  report_budget(scene, options.scene);
 }
 
 }  // namespace
@@ -41,6 +42,7 @@ void add_inside(CLI::App& app, Command& command) {
                   "distance from the closest point of any surface is negative inside. All surfaces must be closed")
       ->required()
       ->type_name("FILE");
+  add_budget_option(*sub, options->scene);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     expect_rows({&options->points}, options->output, inputs_of(options->model));

@@ -9,6 +9,7 @@ namespace shaolin {
 
 struct InsideOptions {
   ModelOptions model;
+  SceneOptions scene;
   RowInput points{point_format()};  ///< --points or --point
   std::filesystem::path output;     ///< -o
   int threads = 0;                  ///< --threads; 0: all

@@ -64,6 +64,23 @@ CLI::Option* add_plugin_option(CLI::App& app, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
+CLI::Option* add_budget_option(CLI::App& app, SceneOptions& options) {
+  return app
+      .add_option_function<double>(
+          "--memory-budget", [&options](double mebibytes) { options.budget = budget_of(mebibytes); },
+          "Most memory, in MiB, that what queries refine may hold, of all objects together; beyond it, what none "
+          "needed "
+          "for the longest is dropped and made anew when needed: slower, same answers (default: all is kept)")
+      ->check(is_positive())
+      ->type_name("MiB");
+}
+
+void report_budget(const Scene& scene, const SceneOptions& options) {
+  if (!options.budget) return;
+  std::cerr << "memory budget: " << options.budget->held() << " of " << options.budget->bytes() << " bytes held, "
+            << scene.statistics().patches_evicted << " patches dropped\n";
+}
+
 void add_method_options(CLI::App& app, SceneOptions& options) {
   CLI::Option* const uniform =
       app.add_option_function<int>(
@@ -105,13 +122,7 @@ void add_method_options(CLI::App& app, SceneOptions& options) {
       add_size("--min-size", options.chord.min_size, "chord faces smaller than this are not refined");
   CLI::Option* const largest =
       add_size("--max-size", options.chord.max_size, "chord faces larger than this are refined");
-  app.add_option_function<double>(
-         "--memory-budget", [&options](double mebibytes) { options.budget = budget_of(mebibytes); },
-         "Most memory, in MiB, that what rays refine may hold, of all objects together; beyond it, what no ray needed "
-         "for the longest is dropped and made anew when needed: slower, same answers (default: all is kept)")
-      ->check(is_positive())
-      ->type_name("MiB")
-      ->excludes(uniform);
+  add_budget_option(app, options)->excludes(uniform);
   app.parse_complete_callback([&options, chord, a3, least, largest] {
     if (least->count() + largest->count() > 0 && chord->count() + a3->count() == 0)
       throw CLI::ValidationError("--min-size and --max-size need --chord or --a3");

@@ -25,8 +25,14 @@ struct ModelOptions {
 std::vector<NamedFile> inputs_of(const ModelOptions& options);
 
 /// Adds --uniform LEVEL, which makes it a scene of triangles, and --chord EPSILON and --a3 EPSILON, of chord faces,
-/// with --min-size and --max-size; and --memory-budget MiB, one for all that is built with the options.
+/// with --min-size and --max-size; and --memory-budget.
 void add_method_options(CLI::App& app, SceneOptions& options);
+
+/// Adds --memory-budget MiB, one for all that is built with the options.
+CLI::Option* add_budget_option(CLI::App& app, SceneOptions& options);
+
+/// Says on stderr what is held and was dropped, if there is a budget.
+void report_budget(const Scene& scene, const SceneOptions& options);
 
 /// Accepts the names of the built-in schemes.
 CLI::Validator is_scheme_name();

@@ -40,7 +40,7 @@ void overlap_in_arena(const OverlapOptions& options) {
   Stage stage = load_stage(options.model);
   const auto& [input, shape_of] = given(options);
   const CsvTable shapes = input.read();
-  const Scene scene = build_scene(stage);
+  const Scene scene = build_scene(stage, options.scene);
   answer_rows(
       shapes, options.output, "shape", std::string("overlaps,") + place_columns + ",sx,sy,sz", stage.is_scene,
       [&scene, to_shape = shape_of](const auto& row) { return scene.overlaps(to_shape(row)); },
@@ -48,6 +48,7 @@ void overlap_in_arena(const OverlapOptions& options) {
         write_place(writer, contact.at, contact.sample);
         write_vector(writer, contact.on_shape);
       });
+  report_budget(scene, options.scene);
 }
 
 }  // namespace
@@ -70,6 +71,7 @@ void add_overlap(CLI::App& app, Command& command) {
                       std::string(instance_column))
       ->required()
       ->type_name("FILE");
+  add_budget_option(*sub, options->scene);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     expect_rows({&options->spheres, &options->boxes, &options->capsules, &options->triangles}, options->output,

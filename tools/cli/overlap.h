@@ -11,6 +11,7 @@ namespace shaolin {
 
 struct OverlapOptions {
   ModelOptions model;
+  SceneOptions scene;
   /// Of one kind at a time: --spheres or --sphere, and so on.
   RowInput spheres{{"sphere", "spheres", "x,y,z,radius", {4}, "A ball"}};
   RowInput boxes{{"box",

@@ -43,7 +43,7 @@ Frustum region_of(const CsvTable& sides) {
 void pick_in_arena(const PickOptions& options) {
   Stage stage = load_stage(options.model);
   const CsvTable rows = options.sides.is_given() ? options.sides.read() : options.rectangles.read();
-  const Scene scene = build_scene(stage);
+  const Scene scene = build_scene(stage, options.scene);
   CsvWriter writer(options.output, std::string("pick,face") + (stage.is_scene ? ",instance" : ""));
   if (options.sides.is_given()) {
     write(writer, 0, scene.pick(region_of(rows)), stage.is_scene);
@@ -54,6 +54,7 @@ void pick_in_arena(const PickOptions& options) {
         [&](std::size_t row, const auto& picked) { write(writer, row, picked, stage.is_scene); });
   }
   writer.commit();
+  report_budget(scene, options.scene);
 }
 
 }  // namespace
@@ -81,6 +82,7 @@ void add_pick(CLI::App& app, Command& command) {
                   "the rectangle's number, or 0. Of scenes with one more column, instance")
       ->required()
       ->type_name("FILE");
+  add_budget_option(*sub, options->scene);
   add_threads_option(*sub, options->threads);
   sub->callback([options, sub, &command] {
     expect_rows({&options->rectangles, &options->sides}, options->output, inputs_of(options->model));

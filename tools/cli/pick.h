@@ -13,6 +13,7 @@ namespace shaolin {
 
 struct PickOptions {
   ModelOptions model;
+  SceneOptions scene;
   RowInput rectangles{{"rectangle",
                        "rectangles",
                        "left,top,right,bottom",

@@ -147,6 +147,7 @@ void query_in_arena(const QueryOptions& options) {
   const Statistics statistics = scene.statistics();
   std::cerr << statistics.rays << " rays, " << statistics.hits << " with a hit, " << statistics.uncertified
             << " hits not certified\n";
+  report_budget(scene, options.scene);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 void sweep_in_arena(const SweepOptions& options) {
   Stage stage = load_stage(options.model);
   const CsvTable sweeps = options.sweeps.read();
-  const Scene scene = build_scene(stage);
+  const Scene scene = build_scene(stage, options.scene);
   answer_rows(
       sweeps, options.output, "sphere", std::string("hit,t,") + place_columns + ",cx,cy,cz", stage.is_scene,
       [&](const auto& row) {
@@ -22,6 +22,7 @@ void sweep_in_arena(const SweepOptions& options) {
         write_place(writer, contact.at, contact.sample);
         write_vector(writer, contact.centre);
       });
+  report_budget(scene, options.scene);
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ void add_sweep(CLI::App& app, Command& command) {
                       std::string(instance_column))
       ->required()
       ->type_name("FILE");
+  add_budget_option(*sub, options->scene);
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] {
     expect_rows({&options->sweeps}, options->output, inputs_of(options->model));

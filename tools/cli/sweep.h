@@ -11,6 +11,7 @@ namespace shaolin {
 
 struct SweepOptions {
   ModelOptions model;
+  SceneOptions scene;
   RowInput sweeps{{"sphere",
                    "spheres",
                    "x,y,z,dx,dy,dz,radius",

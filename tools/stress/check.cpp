@@ -52,6 +52,19 @@ double Check::slack(const Ray& ray, double cosine) const {
   return 4 * subject_.rounding(ray) / std::max(cosine, grazing) / ray.direction.stableNorm();
 }
 
+/// How far the surface moves if a parameter moves by a unit of its last place. Next to most corners that is a rounding
+/// of coordinates; at a pole, where the surface goes with the 0.64th power of the parameters, it is 1e-11.
+double Check::resolution(const SurfaceParameter& at) const {
+  const Vec3 here = subject_.evaluate(at).position;
+  double largest = 0;
+  for (double SurfaceParameter::*const parameter : {&SurfaceParameter::u, &SurfaceParameter::v}) {
+    SurfaceParameter beside = at;
+    beside.*parameter = std::nextafter(at.*parameter, 0);
+    largest = std::max(largest, (subject_.evaluate(beside).position - here).stableNorm());
+  }
+  return largest;
+}
+
 /// What is wrong with a hit, or an empty string; its error is noted.
 std::string Check::unsound(const Ray& ray, const Hit& hit) {
   const LimitSurface& surface = subject_.surface();
@@ -68,11 +81,16 @@ std::string Check::unsound(const Ray& ray, const Hit& hit) {
   const Vec3 away = position - ray.origin - hit.t * ray.direction;
   const double along = std::abs(away.dot(direction)), across = (away - away.dot(direction) * direction).stableNorm();
   const double error = std::max(across, (position - hit.sample.position).stableNorm());
-  if (!(error <= sound * subject_.rounding(ray)) ||
-      !(along <= slack(ray, cosine_of(ray, hit)) * ray.direction.stableNorm()))
+  const double most_off = sound * subject_.rounding(ray);
+  const double most_along = slack(ray, cosine_of(ray, hit)) * ray.direction.stableNorm();
+  const auto is_sound = [&](double room) { return error <= most_off + room && along <= most_along + room; };
+  const bool is_resolved = is_sound(0);
+  if (!is_resolved && !is_sound(resolution(at)))
     return "off the surface or the ray by " + exact(error) + ", along the ray by " + exact(along) + ": " + text(hit) +
            ", surface there " + exact(position);
-  tally_.worst_error = std::max(tally_.worst_error, error / unit_in_last_place(subject_.magnitude(ray)));
+  // (Where parameters are too coarse, the position's own.)
+  const double counted = is_resolved ? error : (hit.sample.position - ray.origin - hit.t * ray.direction).stableNorm();
+  tally_.worst_error = std::max(tally_.worst_error, counted / unit_in_last_place(subject_.magnitude(ray)));
   return {};
 }
 

@@ -11,9 +11,10 @@ namespace shaolin::stress {
 
 /// Checks of one subject's rays, each added to a tally under the family's name.
 ///
-/// A hit is sound if the surface, evaluated at its (face, sub, u, v), is where the ray is at its t and where its sample
-/// says, if t lies in the interval, the parameter in its domain, and the normal is unit or none. A position's error is
-/// the larger of those two distances, and counts in units of the last place of Subject::magnitude().
+/// A hit is sound if the surface, evaluated at its (face, sub, u, v) or a unit of a parameter's last place beside, is
+/// where the ray is at its t and where its sample says, if t lies in the interval, the parameter in its domain, and the
+/// normal is unit or none. A position's error is the larger of those two distances, and counts in units of the last
+/// place of Subject::magnitude().
 class Check {
  public:
   Check(const Subject& subject, std::string family, Tally& tally)
@@ -52,6 +53,7 @@ class Check {
  private:
   void answers(const Probe& probe);
   std::string unsound(const Ray& ray, const Hit& hit);
+  double resolution(const SurfaceParameter& at) const;
   void all(const Probe& probe, std::span<const Crossing> all);
   void target(const Probe& probe, std::span<const Crossing> all);
   void first(const Ray& ray, const std::optional<Hit>& hit, std::span<const Crossing> all);
