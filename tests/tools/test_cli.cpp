@@ -298,7 +298,7 @@ TEST_CASE("Every query's command keeps to a memory budget, and says so", "[tools
     // A tree is held at least while a query is in it; all of them are more than that.
     const std::size_t at = kept.text.find("memory budget: ");
     REQUIRE(at != std::string::npos);
-    CHECK(kept.text.find(" of 1048 bytes held, ", at) != std::string::npos);
+    CHECK(kept.text.find(" of 1049 bytes held, ", at) != std::string::npos);
     CHECK(kept.text.find(", 0 patches dropped", at) == std::string::npos);
   }
 }

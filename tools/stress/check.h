@@ -54,6 +54,10 @@ class Check {
   void answers(const Probe& probe);
   std::string unsound(const Ray& ray, const Hit& hit);
   double resolution(const SurfaceParameter& at) const;
+  /// True if the ray stays on the surface from one t to another, as far as rounding can tell: of a flat face seen at
+  /// less than 1e-6 any place there is as good.
+  bool runs_along(const Ray& ray, double from, double to) const;
+  void leave_undecided();
   void all(const Probe& probe, std::span<const Crossing> all);
   void target(const Probe& probe, std::span<const Crossing> all);
   void first(const Ray& ray, const std::optional<Hit>& hit, std::span<const Crossing> all);

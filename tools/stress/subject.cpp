@@ -57,6 +57,11 @@ Subject::Subject(const StressModel& model, const QueriesOf& queries_of, std::str
   }
 }
 
+double Subject::distance(const Vec3& point) const {
+  const std::optional<ClosestPoint> closest = scene_->closest_point(point);
+  return closest ? closest->distance : std::numeric_limits<double>::infinity();
+}
+
 LimitSample Subject::evaluate(const SurfaceParameter& at) const {
   LimitSample sample = *surface().evaluate(at);
   if (is_identity_) return sample;

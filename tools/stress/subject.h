@@ -51,6 +51,8 @@ class Subject {
 
   /// A place of the limit surface in the world's space, evaluated: no ray is asked. It must exist.
   LimitSample evaluate(const SurfaceParameter& at) const;
+  /// Of a point from the surface; infinite if there is none.
+  double distance(const Vec3& point) const;
 
   /// How far coordinates of points of the surface and of points along a ray may be off in the library's frames of the
   /// ray: RayFrame::error()'s bound, 160 u of the largest coordinate of the control points and 64 u of their largest
