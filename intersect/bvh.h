@@ -36,7 +36,7 @@ class Bvh {
   /// The ray in the coordinates of the boxes: counted from its origin or, if that is far away, from where it enters the
   /// bounds. Empty if it comes from afar and misses them.
   std::optional<BoxRay> enter(const TraversalRay& ray) const {
-    constexpr double nearby = 16;  // half extents: single precision takes 2e-6 of one there
+    constexpr double nearby = 16;  // half extents: single precision takes 4e-6 of one there
     if (space_(ray.origin).cwiseAbs().maxCoeff() <= nearby) return BoxRay(ray, space_, 0);
     const std::optional<double> entry = entry_distance(bounds_, ray, ray.far);
     if (!entry) return {};
@@ -44,7 +44,7 @@ class Bvh {
   }
 
   /// Calls visit(primitive) for the primitives whose boxes the ray meets before `far()`, nearest box first within each
-  /// node, and perhaps for some that it misses by less than 1e-6 of the scene's extent; `far()`, in the ray's units,
+  /// node, and perhaps for some that it misses by less than 4e-6 of the scene's extent; `far()`, in the ray's units,
   /// may shrink meanwhile. Stops when visit returns true.
   template <class Far, class Visit>
   void traverse(const BoxRay& ray, Far far, Visit visit) const;

@@ -6,6 +6,7 @@
 
 #include "tests/catch.h"
 #include "tests/infinity.h"
+#include "tests/intersect/slow_slab.h"
 #include "tests/random.h"
 
 namespace shaolin {
@@ -178,6 +179,28 @@ TEST_CASE("A skewed hierarchy is traversed to its end", "[intersect][bvh]") {
   const Bvh bvh(boxes);
   CHECK(check_ray(boxes, bvh, {{0, 0.5, -1}, {0, 0, 1}}) == 900);
   CHECK(check_ray(boxes, bvh, {{0x1p-15, 0.5, -1}, {0, 0, 1}}) == 16);
+}
+
+TEST_CASE("What is said to pass the bounds by misses them, and most that misses them is said to", "[intersect][bvh]") {
+  Random random(8);
+  int met = 0, lost = 0, missed = 0, said = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    const double size = std::exp2(random.uniform(-40, 40)), length = std::exp2(random.uniform(-300, 300));
+    const Vec3 shift = i % 2 == 0 ? Vec3(Vec3::Zero()) : Vec3(size * std::exp2(random.uniform(0, 30)) * random.point());
+    const Box round = round_box(random), box{size * round.lower + shift, size * round.upper + shift};
+    Ray line = round_ray(random);
+    line = {size * line.origin + shift, length * line.direction, -infinity, infinity};
+    const bool is_passed_by = Bvh({box}).is_passed_by(line);
+    const bool is_met = slowly_meets(box, TraversalRay(line), infinity) != Meets::no;
+    met += is_met;
+    lost += is_met && is_passed_by;
+    missed += !is_met;
+    said += is_passed_by;
+  }
+  CHECK(met > 5'000);
+  CHECK(missed > 10'000);
+  CHECK(lost == 0);
+  CHECK(said > 0.95 * missed);
 }
 
 TEST_CASE("Traversal stops when told, and leaves out what a shrinking far excludes", "[intersect][bvh]") {
