@@ -179,4 +179,35 @@ TEST_CASE("Queries with shapes know their usage", "[tools][cli][shapes]") {
   }
 }
 
+TEST_CASE("Every query's command keeps to a memory budget, and says so", "[tools][cli]") {
+  const Folder folder;
+  const std::string points = folder.write("points.csv", "0.1,0.2,0.3\n0.8,0.1,0\n2,2,2\n-0.9,0.2,0.1\n");
+  const std::string spheres = folder.write("spheres.csv", "0.1,0.2,0.3,1\n2,2,2,0.1\n");
+  const std::string sweeps = folder.write("sweeps.csv", "0.1,0.2,3,0,0,-4,0.1\n3,0.1,0,-3,0,0,0.2\n");
+  const std::string rectangles = folder.write("rectangles.csv", "300,200,420,360\n");
+  const std::string model = data_file("rook.obj"), output = folder / "answers.csv";
+  for (std::vector<std::string> command :
+       std::vector<std::vector<std::string>>{{"closest", model, "--points", points},
+                                             {"inside", model, "--points", points},
+                                             {"overlap", model, "--spheres", spheres},
+                                             {"sweep", model, "--spheres", sweeps},
+                                             {"pick", model, "--rectangles", rectangles}}) {
+    CAPTURE(command.front());
+    command.insert(command.end(), {"-o", output});
+    const auto plain = folder.run(command);
+    REQUIRE(plain.status == 0);
+    CHECK(plain.text.find("memory budget") == std::string::npos);
+    const std::string all = read_file(output);
+    command.insert(command.end(), {"--memory-budget", "0.001"});
+    const auto kept = folder.run(command);
+    REQUIRE(kept.status == 0);
+    CHECK(read_file(output) == all);
+    // A tree is held at least while a query is in it; all of them are more than that.
+    const std::size_t at = kept.text.find("memory budget: ");
+    REQUIRE(at != std::string::npos);
+    CHECK(kept.text.find(" of 1049 bytes held, ", at) != std::string::npos);
+    CHECK(kept.text.find(", 0 patches dropped", at) == std::string::npos);
+  }
+}
+
 }  // namespace shaolin::test
