@@ -112,6 +112,7 @@ class NewtonFinish {
   static Range on_ray(const Net& cell, const Eigen::Vector2d& ab);
   bool is_no_nearer(const Net& cell) const;
   bool is_known(const Net& cell) const;
+  bool meets_as_a_whole(const Net& cell, const Parameter& origin, const Parameter& scale);
   static Contraction contraction(const std::array<double, 16>& x, const std::array<double, 16>& y);
   Verdict newton(const Net& cell, const Matrix& flattening, const Contraction& contraction, Parameter at,
                  PatchHit& hit);
@@ -168,6 +169,8 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
     accept({D::centre(), std::max(distance, near_), z.high - z.low}, origin, scale);
     return;
   }
+
+  if (!all_ && in_band(x, y) && meets_as_a_whole(cell, origin, scale)) return;
 
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
@@ -267,6 +270,51 @@ bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
   return std::any_of(all_->begin() + static_cast<std::ptrdiff_t>(first), all_->end(), [&](const PatchHit& hit) {
     return !hit.is_proven && range.low >= hit.distance - room && range.high <= hit.distance + room;
   });
+}
+
+/// Of a cell that lies on the ray as a whole: takes where the ray starts in it, or its nearest corner, for a hit, and
+/// returns true if no point of it is nearer by more than half an error. For a corner that is so if z goes one way along
+/// u, along v and, of a triangle, along its third side, where differences below 1/32 of the error count as none: z
+/// falls by as much a control point at most, four along each of two ways. (Of a patch collapsed to a curve that a ray
+/// runs along, cells are few around the places where z turns back; for all others to be small enough to be points they
+/// would have to be millions.)
+template <class Bezier>
+bool NewtonFinish<Bezier>::meets_as_a_whole(const Net& cell, const Parameter& origin, const Parameter& scale) {
+  std::size_t first = 0, last = 0;
+  for (std::size_t k = 1; k < Bezier::corners.size(); ++k) {
+    if (cell.z[Bezier::corners[k]] < cell.z[Bezier::corners[first]]) first = k;
+    if (cell.z[Bezier::corners[k]] > cell.z[Bezier::corners[last]]) last = k;
+  }
+  const double nearest = cell.z[Bezier::corners[first]], farthest = cell.z[Bezier::corners[last]];
+  if (farthest < near_) return false;
+  const Parameter at(D::corners[first][0], D::corners[first][1]);
+  if (nearest < near_) {
+    Parameter before = at, after(D::corners[last][0], D::corners[last][1]);
+    for (int i = 0; i < std::numeric_limits<double>::digits; ++i) {
+      const Parameter middle = 0.5 * (before + after);
+      std::array<double, 4> z;  // value, du, dv
+      NetEvaluation<Bezier>{middle}(cell.z).store(z.data());
+      (z[0] < near_ ? before : after) = middle;
+    }
+    accept({after, near_}, origin, scale);
+    return true;
+  }
+  accept({at, nearest}, origin, scale);
+
+  double rise_u = 0, fall_u = 0, rise_v = 0, fall_v = 0, rise_w = 0, fall_w = 0;
+  const auto add = [](double step, double& rise, double& fall) {
+    rise = std::max(rise, step);
+    fall = std::max(fall, -step);
+  };
+  for (std::size_t k = 0; k < Bezier::u_pairs.size(); ++k) {
+    const auto [from_u, to_u] = Bezier::u_pairs[k];
+    const auto [from_v, to_v] = Bezier::v_pairs[k];
+    add(cell.z[to_u] - cell.z[from_u], rise_u, fall_u);
+    add(cell.z[to_v] - cell.z[from_v], rise_v, fall_v);
+    if constexpr (D::corner_count == 3) add(cell.z[to_v] - cell.z[to_u], rise_w, fall_w);
+  }
+  const double none = error_ / 32;
+  return std::min(rise_u, fall_u) <= none && std::min(rise_v, fall_v) <= none && std::min(rise_w, fall_w) <= none;
 }
 
 /// For g given by its control values, by those of its derivatives: with a_ij the largest |1 - dg_i/dj| or |dg_i/dj| of

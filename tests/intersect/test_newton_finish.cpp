@@ -200,6 +200,37 @@ TEMPLATE_TEST_CASE("Where a patch is collapsed to a segment, a ray across it ask
   }
 }
 
+// All of such a patch is on the ray, and its nearest point is looked for.
+TEMPLATE_TEST_CASE("A ray along a patch collapsed to a segment asks few cells", "[intersect][finish]", BezierQuad,
+                   BezierTriangle) {
+  using D = typename TestType::DomainType;
+  Random random(14);
+  for (int k = 0; k < 200; ++k) {
+    TestType patch;
+    for (Vec3& point : patch.b) point = Vec3(0, 0, random.uniform(3, 4));
+    double nearest = infinity, farthest = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double z = patch.position(D::nearest({random.uniform(0, 1), random.uniform(0, 1)})).z();
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+    }
+    for (const double near : {0.0, 0.5 * (nearest + farthest)}) {
+      RayCounters counters;
+      NewtonFinish<TestType> finish(patch_error, near, infinity, false, counters);
+      REQUIRE(finish.solve(Net(patch)));
+      const PatchHit& hit = finish.hit();
+      if (near == 0) {
+        CHECK(hit.distance <= nearest + 1e-11);
+        CHECK(hit.distance == Approx(patch.position(hit.at).z()).margin(1e-12));
+      } else {
+        CHECK(hit.distance == Approx(near).margin(1e-12));
+        CHECK(patch.position(hit.at).z() == Approx(near).margin(1e-11));
+      }
+      CHECK(counters.cells < 4000);
+    }
+  }
+}
+
 // The points within the error of a ray that grazes the surface are far from each other; the map says more.
 TEST_CASE("A grazing ray is met as exactly as the map allows", "[intersect][finish]") {
   Random random(13);
