@@ -161,7 +161,7 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
     return;
   }
 
-  if (!all_ && in_band(x, y) && meets_as_a_whole(cell, origin, scale)) return;
+  if (!all_ && cells_ > patience && in_band(x, y) && meets_as_a_whole(cell, origin, scale)) return;
 
   Matrix jacobian;
   jacobian << Bezier::mean_du(cell.x), Bezier::mean_dv(cell.x), Bezier::mean_du(cell.y), Bezier::mean_dv(cell.y);
@@ -263,12 +263,12 @@ bool NewtonFinish<Bezier>::is_known(const Net& cell) const {
   });
 }
 
-/// Of a cell that lies on the ray as a whole: takes where the ray starts in it, or its nearest corner, for a hit, and
-/// returns true if no point of it is nearer by more than half an error. For a corner that is so if z goes one way along
-/// u, along v and, of a triangle, along its third side, where differences below 1/32 of the error count as none: z
-/// falls by as much a control point at most, four along each of two ways. (Of a patch collapsed to a curve that a ray
-/// runs along, cells are few around the places where z turns back; for all others to be small enough to be points they
-/// would have to be millions.)
+/// Out of patience, of a cell that lies on the ray as a whole: takes where the ray starts in it, or its nearest corner,
+/// for a hit, and returns true if no point of it is nearer by more than half an error. For a corner that is so if z
+/// goes one way along u, along v and, of a triangle, along its third side, where differences below 1/32 of the error
+/// count as none: z falls by as much a control point at most, four along each of two ways. (Of a patch collapsed to a
+/// curve that a ray runs along, cells are few around the places where z turns back; for all others to be small enough
+/// to be points they would have to be millions.)
 template <class Bezier>
 bool NewtonFinish<Bezier>::meets_as_a_whole(const Net& cell, const Parameter& origin, const Parameter& scale) {
   std::size_t first = 0, last = 0;
