@@ -3,7 +3,7 @@
 #include "nearest_finish.h"
 #include "nearest_queue.h"
 #include "nearest_refining_finish.h"
-#include "patch_tree.h"
+#include "parts.h"
 
 namespace shaolin {
 
@@ -29,7 +29,7 @@ class ClosestSearch {
 
   /// Puts a start patch on the list; `slot` is that of its parts.
   void add(int primitive, const PatchNode<S>& patch, typename Parts<S>::Slot& slot, const SceneBox& box) {
-    queue_.push(approach_.box_point().distance(box), {primitive, &patch, &slot, Parts<S>::inner});
+    queue_.push(approach_.box_point().distance(box), {primitive, &patch, 0, &slot, false});
   }
   /// Looks at all on the list that may be nearer than `distance` (in the units of boxes) and than what is found.
   void run(float distance) {
@@ -42,8 +42,9 @@ class ClosestSearch {
   struct Part {
     int primitive;
     const PatchNode<S>* patch;
+    int piece;  ///< as in Parts
     typename Parts<S>::Slot* slot;
-    std::int8_t piece;  ///< as in Parts
+    bool is_tiny;
   };
 
   void ask(const Part& part);
@@ -71,13 +72,15 @@ template <Scheme S>
 void ClosestSearch<S>::ask_parts(const Part& part) {
   const Parts<S>& parts = Parts<S>::of(*part.patch, *part.slot, approach_.space, totals_);
   alignas(32) std::array<float, 8> entries;
-  for (const typename Parts<S>::Eight* eight : {&parts.first(), parts.second()}) {
-    if (!eight) continue;
-    for (unsigned met = approach_.box_point().meet(eight->boxes, approach_.box_limit(), entries); met != 0;
-         met &= met - 1) {
+  std::size_t first = 0;
+  for (const EightBoxes* boxes : {&parts.first(), parts.second()}) {
+    if (!boxes) continue;
+    for (unsigned met = approach_.box_point().meet(*boxes, approach_.box_limit(), entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
-      queue_.push(entries[i], {part.primitive, eight->patch[i], &eight->parts[i], eight->piece[i]});
+      const typename Parts<S>::Part of = parts.part(first + i);
+      queue_.push(entries[i], {part.primitive, &of.patch, of.piece, of.parts, of.is_tiny});
     }
+    first += 8;
   }
 }
 
@@ -92,10 +95,10 @@ bool ClosestSearch<S>::may_be_nearer(const Part& part) {
   Box box;
   for (const Vec3& point : patch.patch().points) box.add(approach_.relative(point));
   const double error = error_of(box, part);
-  if (part.piece == Parts<S>::tiny) {
+  if (part.is_tiny) {
     take_corner(part, error);
     // The point is the corner, as far as that is known.
-    if (approach_.limit(approach_.length(patch.place().rounding)) < 0) return false;
+    if (approach_.limit(approach_.length(patch.place().rounding())) < 0) return false;
   }
   const double limit = approach_.limit(error), expansion = patch.patch().configuration->hull_expansion();
   if (limit < 0) return false;
@@ -121,7 +124,7 @@ bool ClosestSearch<S>::may_be_nearer(const Part& part) {
 /// nothing to tell apart: rounding has collapsed it to a few points, and its shape is an accident.
 template <Scheme S>
 double ClosestSearch<S>::error_of(const Box& hull, const Part& part) const {
-  const double uncertain = approach_.length(part.patch->place().rounding);
+  const double uncertain = approach_.length(part.patch->place().rounding());
   const bool is_point = (hull.upper - hull.lower).maxCoeff() <= uncertain;
   return approach_.error(hull.largest_coordinate()) + (is_point ? uncertain : 0);
 }
@@ -129,9 +132,9 @@ double ClosestSearch<S>::error_of(const Box& hull, const Part& part) const {
 template <Scheme S>
 void ClosestSearch<S>::take_corner(const Part& part, double error) {
   const auto& patch = static_cast<const IrregularPatch<S>&>(*part.patch);
-  const Parameter corner = D::nearest(patch.place().domain(D::centre())).array().round();
+  const Parameter corner = D::nearest(patch.place().domain()(D::centre())).array().round();
   for (const auto& [u, v] : D::corners) {
-    if (corner != patch.place().domain({u, v})) continue;
+    if (corner != patch.place().domain()({u, v})) continue;
     const LimitSample sample = evaluate(patch.patch(), Parameter(u, v));
     if (approach_.take(approach_.relative(sample.position), error))
       found_ = Found{part.primitive, nullptr, corner, patch.place().level()};
@@ -150,7 +153,7 @@ void ClosestSearch<S>::finish(const Part& part) {
     if (finish.solve(relative)) found_ = Found{part.primitive, &patch, finish.at(), patch.place().level()};
     return;
   }
-  const int number = std::max<int>(part.piece, 0);
+  const int number = part.piece;
   const Pieces<Polynomial>& pieces = pieces_of<Polynomial>;
   Net whole, piece;
   approach_.relative(static_cast<const PolynomialPatch<S>&>(patch).net(), whole);

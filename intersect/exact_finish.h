@@ -6,12 +6,12 @@
 #include <numbers>
 #include <optional>
 
+#include "../schemes/mesh.h"
 #include "../schemes/scheme_surface.h"
 #include "approach.h"
-#include "chord_plane.h"
 #include "flatten.h"
 #include "newton_finish.h"
-#include "patch_tree.h"
+#include "parts.h"
 #include "ray_frame.h"
 #include "refining_finish.h"
 
@@ -31,7 +31,7 @@ class ExactFinish {
   class alignas(64) StartPatch {
    public:
     StartPatch(Patch<S> patch, int level, const BoxSpace& space, const ExactFinish&, TreeTotals& totals)
-        : normal_(chord_plane_normal(patch)), reach_(hull_of(patch.points)) {
+        : normal_(plane_normal(patch)), reach_(hull_of(patch.points)) {
       patch_ = PatchNode<S>::make(std::move(patch), Place{{}, level, reach_.rounding()});
       is_leaf_ = patch_->is_leaf();
       box_ = is_leaf_ || patch_->is_polynomial() ? SceneBox(patch_->bound(), space)
@@ -52,6 +52,13 @@ class ExactFinish {
     std::uint64_t grown_bytes() const { return Parts<S>::bytes_in(parts_); }
 
    private:
+    /// Of the plane TP, here through the face's corners, not their limit points: any plane does that a flat patch is
+    /// nearly parallel to, and limits take masks. Zero if the corners span none.
+    static Vec3 plane_normal(const Patch<S>& patch) {
+      using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
+      return Base::chord_normal({patch.points.begin(), patch.points.begin() + patch.configuration->corner_count()});
+    }
+
     // What every ray reads that reaches the patch comes first, in one cache line.
     SceneBox box_;
     bool is_leaf_ = false;
@@ -96,12 +103,19 @@ class ExactFinish {
   }
 
   Hit hit(const Found& found, int face, int sub, const SchemeSurface<S>& surface) const {
-    const Parameter at = D::nearest(found.patch->place().domain(found.at));
+    const Parameter at = D::nearest(found.patch->place().domain()(found.at));
     Hit hit;
     hit.at = {face, sub, at.x(), at.y()};
     hit.level = found.level;
-    hit.sample = sample(found, hit.at, surface);
-    if (found.is_certified()) hit.certificate = {Certificate::Status::certified, 0, position_error(found)};
+    if (!found.patch->is_polynomial()) {
+      hit.sample = *surface.evaluate(hit.at);
+      if (!found.patch->is_leaf())
+        hit.sample.position = static_cast<const IrregularPatch<S>&>(*found.patch).patch().points.front();
+      return hit;
+    }
+    const Jet jet = this->jet(found);
+    hit.sample = sample(*found.patch, jet, hit.at, surface);
+    if (found.is_certified()) hit.certificate = {Certificate::Status::certified, 0, position_error(found, jet)};
     return hit;
   }
 
@@ -135,7 +149,7 @@ class ExactFinish {
       const Vec3 &low = hull.lower, &high = hull.upper;
       return low.x() <= 2 * error_ && high.x() >= -2 * error_ && low.y() <= 2 * error_ && high.y() >= -2 * error_;
     }
-    bool project(const Net& net, int number, Net& piece);
+    bool project(const SplineWindow<Polynomial>& patch, int number, Net& piece);
     void finish_by_refinement(const IrregularPatch<S>& patch);
     void finish_as_point(const PatchNode<S>& patch, const Vec3& point, const Box& hull);
 
@@ -187,64 +201,50 @@ class ExactFinish {
     return D::contains(centre - half) && D::contains(centre + half) && D::contains(centre - other) &&
            D::contains(centre + other);
   }
-  static double position_error(const Found& found);
-  static LimitSample sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface);
-  static LimitSample polynomial_sample(const Found& found);
+  SHAOLIN_FLATTEN static Jet jet(const Found& found) {
+    return shaolin::jet(polynomial_of(*found.patch).window(), found.at);
+  }
+  static double position_error(const Found& found, const Jet& jet);
+  static LimitSample sample(const PatchNode<S>& patch, const Jet& jet, const SurfaceParameter& at,
+                            const SchemeSurface<S>& surface);
 };
 
 /// The surface at a hit: from the polynomial where it is as good as evaluation from the control face, that is, unless
 /// the piece is so small that differences of its absolute coordinates lose the normal's digits.
 template <Scheme S>
-LimitSample ExactFinish<S>::sample(const Found& found, const SurfaceParameter& at, const SchemeSurface<S>& surface) {
+LimitSample ExactFinish<S>::sample(const PatchNode<S>& patch, const Jet& jet, const SurfaceParameter& at,
+                                   const SchemeSurface<S>& surface) {
   constexpr int deepest_absolute = 8;
-  const bool is_polynomial = found.patch->is_polynomial();
-  if (is_polynomial && found.patch->place().level() <= deepest_absolute &&
-      !surface.control_mesh().is_collapsed(at.face))
-    return polynomial_sample(found);
-  // The position stays the patch's own: near u or v = 1 parameters are too coarse to find it again.
-  LimitSample sample = *surface.evaluate(at);
-  if (is_polynomial)
-    sample.position = polynomial_of(*found.patch).polynomial().position(found.at);
-  else if (!found.patch->is_leaf())
-    sample.position = static_cast<const IrregularPatch<S>&>(*found.patch).patch().points.front();
-  return sample;
+  if (patch.place().level() > deepest_absolute || surface.control_mesh().is_collapsed(at.face)) {
+    // The position stays the patch's own: near u or v = 1 parameters are too coarse to find it again.
+    LimitSample sample = *surface.evaluate(at);
+    sample.position = jet.position;
+    return sample;
+  }
+  Derivatives d = jet.derivatives;
+  const Vec3 normal = detail::unit_normal(d.du, d.dv);
+  const Parameter inverse = patch.place().domain().scale.cwiseInverse();
+  d.du *= inverse.x();
+  d.dv *= inverse.y();
+  d.duu *= inverse.x() * inverse.x();
+  d.duv *= inverse.x() * inverse.y();
+  d.dvv *= inverse.y() * inverse.y();
+  return {jet.position, normal, d};
 }
 
 /// Of a certified hit: the zero is within the radius r, over which the surface moves by what its derivatives say, and
 /// half of its second derivatives. Those are at most 4 n (n - 1) times the extent of the control points; below 2^-30
 /// they are lost among the errors of coordinates, which both positions carry.
 template <Scheme S>
-double ExactFinish<S>::position_error(const Found& found) {
-  const Net& net = polynomial_of(*found.patch).net();
-  const NetEvaluation<Polynomial> evaluation(found.at);
-  Vec3 du, dv;
-  Eigen::Index axis = 0;
-  for (const auto* points : {&net.x, &net.y, &net.z}) {
-    std::array<double, 4> at;  // value, du, dv
-    evaluation(*points).store(at.data());
-    du[axis] = at[1];
-    dv[axis++] = at[2];
-  }
+double ExactFinish<S>::position_error(const Found& found, const Jet& jet) {
   const Parameter& r = found.radius;
-  double error = du.norm() * r.x() + dv.norm() * r.y() + 2 * std::numbers::sqrt3 * found.error;
+  double error =
+      jet.derivatives.du.norm() * r.x() + jet.derivatives.dv.norm() * r.y() + 2 * std::numbers::sqrt3 * found.error;
   if (const double length = r.sum(); length > 0x1p-30) {
-    const Box hull = hull_of(net);
+    const Box hull = hull_of(polynomial_of(*found.patch).net());
     error += 2.1 * Polynomial::degree * (Polynomial::degree - 1) * (hull.upper - hull.lower).norm() * length * length;
   }
   return error;
-}
-
-template <Scheme S>
-SHAOLIN_FLATTEN LimitSample ExactFinish<S>::polynomial_sample(const Found& found) {
-  auto [position, d] = jet<Polynomial>(polynomial_of(*found.patch).net(), found.at);
-  const Vec3 normal = detail::unit_normal(d.du, d.dv);
-  const Parameter inverse = found.patch->place().domain.scale.cwiseInverse();
-  d.du *= inverse.x();
-  d.dv *= inverse.y();
-  d.duu *= inverse.x() * inverse.x();
-  d.duv *= inverse.x() * inverse.y();
-  d.dvv *= inverse.y() * inverse.y();
-  return {position, normal, d};
 }
 
 /// The patch's shadow list: the parts that the ray's box test leaves, front to back.
@@ -256,16 +256,14 @@ void ExactFinish<S>::Search::descend(const PatchNode<S>& patch, typename Parts<S
     if (!may_meet(patch, is_tiny)) return;
     parts = &Parts<S>::of(patch, slot, approach_.space, totals_);
   }
-  BoxOrder shadow_list(parts->first().boxes, approach_.box_ray, approach_.box_far());
-  if (parts->second()) shadow_list.add(parts->second()->boxes, 8, approach_.box_ray, approach_.box_far());
+  BoxOrder shadow_list(parts->first(), approach_.box_ray, approach_.box_far());
+  if (parts->second()) shadow_list.add(*parts->second(), 8, approach_.box_ray, approach_.box_far());
   for (std::size_t i = 0; i < shadow_list.count() && shadow_list.distance(i) <= approach_.box_far(); ++i) {
-    const std::size_t box = shadow_list.box(i);
-    const typename Parts<S>::Eight& eight = box < 8 ? parts->first() : *parts->second();
-    const PatchNode<S>& part = *eight.patch[box % 8];
-    if (const std::int8_t piece = eight.piece[box % 8]; piece >= 0)
-      finish(part, piece);
+    const typename Parts<S>::Part part = parts->part(shadow_list.box(i));
+    if (part.parts)
+      descend<query>(part.patch, *part.parts, part.is_tiny);
     else
-      descend<query>(part, eight.parts[box % 8], piece == Parts<S>::tiny);
+      finish(part.patch, part.piece);
     if (query == Query::any && found) return;
   }
 }
@@ -299,7 +297,7 @@ template <Scheme S>
 void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   if (!patch.is_polynomial()) return finish_by_refinement(static_cast<const IrregularPatch<S>&>(patch));
   Net cell;
-  if (!project(polynomial_of(patch).net(), number, cell)) return;
+  if (!project(polynomial_of(patch).window(), number, cell)) return;
   NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
                                   approach_.counters, all ? cells_ : 0);
   solve(solver, cell, [&](PatchHit hit) {
@@ -311,13 +309,13 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   cells_ = solver.cells();
 }
 
-/// A piece of a net in the ray's coordinates; false if a test of the planes finds it to one side, before the others are
-/// made. These are the first tests of NewtonFinish, and turn away most.
+/// A piece of a patch in the ray's coordinates; false if a test of the planes finds it to one side, before the others
+/// are made. These are the first tests of NewtonFinish, and turn away most.
 template <Scheme S>
-SHAOLIN_FLATTEN bool ExactFinish<S>::Search::project(const Net& net, int number, Net& piece) {
+SHAOLIN_FLATTEN bool ExactFinish<S>::Search::project(const SplineWindow<Polynomial>& patch, int number, Net& piece) {
   const auto make = [&](RayFrame::Axis axis, std::array<double, 16>& to) {
     std::array<double, 16> whole;
-    frame().project(net, axis, whole);
+    frame().project(patch, axis, whole);
     pieces_of<Polynomial>.restrict_to(number, whole, to);
   };
   make(RayFrame::Axis::x, piece.x);

@@ -33,6 +33,15 @@ struct Net {
   }
 };
 
+/// The coordinates one behind the other.
+inline std::array<double, 48> by_coordinate(const Net& net) {
+  std::array<double, 48> all;
+  std::copy(net.x.begin(), net.x.end(), all.begin());
+  std::copy(net.y.begin(), net.y.end(), all.begin() + 16);
+  std::copy(net.z.begin(), net.z.end(), all.begin() + 32);
+  return all;
+}
+
 /// The least and the largest of sixteen values.
 struct Range {
   double low, high;

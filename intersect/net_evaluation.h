@@ -3,6 +3,7 @@
 #include "../schemes/bezier_quad.h"
 #include "../schemes/bezier_triangle.h"
 #include "net.h"
+#include "spline_window.h"
 
 namespace shaolin {
 
@@ -26,8 +27,6 @@ struct Cubics {
 struct AlongColumns {
   Four row0, row1, row2, row3;
 
-  explicit AlongColumns(const std::array<double, 16>& points)
-      : row0(&points[0]), row1(&points[4]), row2(&points[8]), row3(&points[12]) {}
   Four operator()(const std::array<double, 4>& w) const {
     return (Four(w[0]) * row0 + Four(w[1]) * row1) + (Four(w[2]) * row2 + Four(w[3]) * row3);
   }
@@ -43,7 +42,7 @@ class NetEvaluation<BezierQuad> {
       : value_(detail::Cubics{at.x()}.value()), first_(detail::Cubics{at.x()}.first()), v_(at.y()) {}
 
   Four operator()(const std::array<double, 16>& points) const {
-    const detail::AlongColumns along_v(points);
+    const detail::AlongColumns along_v{Four(&points[0]), Four(&points[4]), Four(&points[8]), Four(&points[12])};
     const Four value = along_v(v_.value);
     return sums(value_ * value, first_ * value, value_ * along_v(v_.first), Four(0.0));
   }
@@ -86,20 +85,22 @@ struct Jet {
   Derivatives derivatives;
 };
 
-template <class Bezier>
-Jet jet(const Net& net, const Parameter& at);
-
-template <>
-inline Jet jet<BezierQuad>(const Net& net, const Parameter& at) {
-  const detail::Cubics u{at.x()};
-  const Four value = u.value(), first = u.first(), second = u.second();
-  const BezierQuad::Bernstein v(at.y());
+/// What the cubics weigh is put back to the window's places, which need not become Bezier points.
+inline Jet jet(const SplineWindow<BezierQuad>& patch, const Parameter& at) {
+  const auto& map = patch.to_bezier();
+  const detail::Cubics u{at.x()}, v{at.y()};
+  const Four value = map.u_weights(u.value()), first = map.u_weights(u.first()), second = map.u_weights(u.second());
+  std::array<double, 4> v_value, v_first, v_second;
+  map.v_weights(v.value()).store(v_value.data());
+  map.v_weights(v.first()).store(v_first.data());
+  map.v_weights(v.second()).store(v_second.data());
   Jet jet;
   Derivatives& d = jet.derivatives;
-  Eigen::Index axis = 0;
-  for (const auto* points : {&net.x, &net.y, &net.z}) {
-    const detail::AlongColumns along_v(*points);
-    const Four of_value = along_v(v.value), of_first = along_v(v.first), of_second = along_v(v.second);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto coordinate = static_cast<std::size_t>(axis);
+    const detail::AlongColumns along_v{patch.row(coordinate, 0), patch.row(coordinate, 1), patch.row(coordinate, 2),
+                                       patch.row(coordinate, 3)};
+    const Four of_value = along_v(v_value), of_first = along_v(v_first), of_second = along_v(v_second);
     std::array<double, 4> low, high;
     sums(value * of_value, first * of_value, value * of_first, first * of_first).store(low.data());
     sums(second * of_value, value * of_second, Four(0.0), Four(0.0)).store(high.data());
@@ -109,15 +110,14 @@ inline Jet jet<BezierQuad>(const Net& net, const Parameter& at) {
     d.duv[axis] = low[3];
     d.duu[axis] = high[0];
     d.dvv[axis] = high[1];
-    ++axis;
   }
   return jet;
 }
 
 /// Two steps of de Casteljau's leave a net of degree 2: of the quadratics on the triangle six sums over the points.
 /// Their differences are the second derivatives, and another two steps give the rest.
-template <>
-inline Jet jet<BezierTriangle>(const Net& net, const Parameter& at) {
+inline Jet jet(const SplineWindow<BezierTriangle>& patch, const Parameter& at) {
+  const Net net = patch.net();
   const double u = at.x(), v = at.y(), w = 1 - u - v;
   const Four row0(w * w, 2 * w * u, u * u, 0), row1(2 * w * v, 2 * u * v, 0, 0), row2(v * v);
   Jet jet;

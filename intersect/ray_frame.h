@@ -2,6 +2,7 @@
 /// The planes RP and CP of Mueller et al. 2003, section 6, as a change of coordinates.
 #include "box.h"
 #include "net.h"
+#include "spline_window.h"
 
 namespace shaolin {
 
@@ -36,10 +37,15 @@ class RayFrame {
   /// One of the ray's coordinates: the distance from RP, from CP, or along the ray.
   enum class Axis { x, y, z };
   void project(const Net& from, Axis axis, std::array<double, 16>& to) const {
-    const Vec3& along = axis == Axis::x ? rp_ : axis == Axis::y ? cp_ : direction_;
-    const Four ox(origin_.x()), oy(origin_.y()), oz(origin_.z()), ax(along.x()), ay(along.y()), az(along.z());
-    for (std::size_t i = 0; i < 16; i += 4)
-      (ax * (Four(&from.x[i]) - ox) + ay * (Four(&from.y[i]) - oy) + az * (Four(&from.z[i]) - oz)).store(&to[i]);
+    const Projection project(origin_, along(axis));
+    for (std::size_t i = 0; i < 16; i += 4) project(Four(&from.x[i]), Four(&from.y[i]), Four(&from.z[i])).store(&to[i]);
+  }
+  /// Of a polynomial's Bezier points.
+  template <class Bezier>
+  void project(const SplineWindow<Bezier>& from, Axis axis, std::array<double, 16>& to) const {
+    const Projection project(origin_, along(axis));
+    const auto row = [&](std::size_t j) { return project(from.row(0, j), from.row(1, j), from.row(2, j)); };
+    from.to_bezier()({row(0), row(1), row(2), row(3)}, to);
   }
 
   /// A direction in the ray's coordinates.
@@ -73,6 +79,15 @@ class RayFrame {
   }
 
  private:
+  /// Of four points.
+  struct Projection {
+    Four ox, oy, oz, ax, ay, az;
+    Projection(const Vec3& origin, const Vec3& along)
+        : ox(origin.x()), oy(origin.y()), oz(origin.z()), ax(along.x()), ay(along.y()), az(along.z()) {}
+    Four operator()(Four x, Four y, Four z) const { return ax * (x - ox) + ay * (y - oy) + az * (z - oz); }
+  };
+  const Vec3& along(Axis axis) const { return axis == Axis::x ? rp_ : axis == Axis::y ? cp_ : direction_; }
+
   Vec3 origin_, direction_, rp_, cp_;
 };
 

@@ -26,7 +26,7 @@ concept FindsAll = requires {
   &Finish::search_all;
 };
 
-/// A finish whose start patches have parts (patch_tree.h), through which the closest point is searched.
+/// A finish whose start patches have parts (parts.h), through which the closest point is searched.
 template <class Finish>
 concept HasParts = requires(const typename Finish::StartPatch& start) {
   start.patch().is_polynomial();

@@ -5,8 +5,8 @@
 
 #include "bvh.h"
 #include "counters.h"
+#include "parts.h"
 #include "patch_budget.h"
-#include "patch_tree.h"
 #include "squared_distance.h"
 #include "surface_cell.h"
 
@@ -212,13 +212,16 @@ class HierarchyCell final : public SurfaceCell {
 
 /// The cell of a patch that is kept: all of it, or a numbered piece of a polynomial.
 template <Scheme S>
-std::unique_ptr<SurfaceCell> make_cell(const CellSource<S>& source, int face, int sub, const PatchNode<S>& patch,
-                                       typename Parts<S>::Slot& slot, std::int8_t piece) {
+std::unique_ptr<SurfaceCell> make_cell(const CellSource<S>& source, int face, int sub,
+                                       const typename Parts<S>::Part& part) {
+  const PatchNode<S>& patch = part.patch;
   using Polynomial = RegularPatch<S::face_kind>;
-  const auto place = [&](const Place& at) { return SurfaceCell::Place{face, sub, at.domain, at.level(), at.rounding}; };
+  const auto place = [&](const Place& at) {
+    return SurfaceCell::Place{face, sub, at.domain(), at.level(), at.rounding()};
+  };
   if (patch.is_polynomial()) {
-    const int number = std::max<int>(piece, 0);
-    const Net& whole = static_cast<const PolynomialPatch<S>&>(patch).net();
+    const int number = part.piece;
+    const Net whole = static_cast<const PolynomialPatch<S>&>(patch).net();
     Net net;
     pieces_of<Polynomial>.restrict_to(number, whole.x, net.x);
     pieces_of<Polynomial>.restrict_to(number, whole.y, net.y);
@@ -228,7 +231,7 @@ std::unique_ptr<SurfaceCell> make_cell(const CellSource<S>& source, int face, in
   }
   const auto& irregular = static_cast<const IrregularPatch<S>&>(patch);
   if (patch.is_leaf()) return std::make_unique<RefinedCell<S>>(irregular.patch(), place(patch.place()));
-  return std::make_unique<PatchCell<S>>(source, irregular, slot, piece == Parts<S>::tiny, place(patch.place()));
+  return std::make_unique<PatchCell<S>>(source, irregular, *part.parts, part.is_tiny, place(patch.place()));
 }
 
 template <Scheme S>
@@ -251,12 +254,8 @@ auto PatchCell<S>::split() const -> Cells {
   using Kept = Parts<S>;
   const Kept& kept = Kept::of(patch_, slot_, source_.hierarchy.space(), source_.totals);
   Cells parts;
-  for (const typename Kept::Eight* eight : {&kept.first(), kept.second()}) {
-    for (std::size_t i = 0; eight && i < 8; ++i)
-      if (!eight->boxes.is_empty(i))
-        parts.push_back(
-            make_cell(source_, place().face, place().sub, *eight->patch[i], eight->parts[i], eight->piece[i]));
-  }
+  for (std::size_t i = 0; i < kept.count(); ++i)
+    parts.push_back(make_cell(source_, place().face, place().sub, kept.part(i)));
   return parts;
 }
 
@@ -269,7 +268,7 @@ auto HierarchyCell<S>::split() const -> Cells {
     });
   } else {
     const typename CellSource<S>::Start start = source_.start(~child_);
-    parts.push_back(make_cell(source_, place().face, place().sub, start.patch, start.parts, Parts<S>::inner));
+    parts.push_back(make_cell(source_, place().face, place().sub, {start.patch, 0, &start.parts, false}));
   }
   return parts;
 }

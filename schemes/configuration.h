@@ -107,10 +107,11 @@ class Configuration {
     return once(descents_, [&] { return is_regular() ? Descents() : descents_from(*this); });
   }
 
-  /// See flat_net.h; empty for polynomial patches and where the lattice is irregular. Thread-safe.
+  /// See flat_net.h; empty for polynomial patches, for irregular ones beside them and where the lattice is irregular.
+  /// Thread-safe.
   const std::optional<FlatNet>& flat_net() const {
     return once(flat_net_, [&]() -> std::optional<FlatNet> {
-      if (is_regular() || corner_count() != Domain<S::face_kind>::corner_count) return {};
+      if (basis_of(scheme()) != Basis::none || corner_count() != Domain<S::face_kind>::corner_count) return {};
       std::vector<Eigen::MatrixXd> splits;
       for (int k = 0; k < child_count(); ++k) {
         if (child(k).configuration != this) return {};
@@ -218,10 +219,13 @@ class ConfigurationTable {
     turn_to_face(neighbourhood);
     CanonicalForm form = canonical_form(neighbourhood);
     const std::lock_guard lock(mutex_);
-    auto& slot = configurations_[std::move(form.key)];
-    if (!slot)
-      slot = std::make_unique<Configuration<S>>(in_canonical_numbers(neighbourhood), form.vertices.size(), *this);
-    return {slot.get(), std::move(form.vertices)};
+    auto at = configurations_.find(form.key);
+    if (at == configurations_.end()) {
+      form.key.shrink_to_fit();
+      auto made = std::make_unique<Configuration<S>>(in_canonical_numbers(neighbourhood), form.vertices.size(), *this);
+      at = configurations_.emplace(std::move(form.key), std::move(made)).first;
+    }
+    return {at->second.get(), std::move(form.vertices)};
   }
 
   typename Configuration<S>::Child child(const Configuration<S>& parent, int k) {

@@ -6,49 +6,40 @@
 
 namespace shaolin {
 
-CreaseStrips::CreaseStrips(int side, float sharpness, std::vector<SplinePoint> grid)
-    : side_(side), grid_(std::move(grid)) {
+CreaseStrips::CreaseStrips(int side, float sharpness, std::vector<SplinePoint> grid) : grid_(std::move(grid)) {
   // A refined line: edge point, vertex point, edge point, ... of the line before, from the edge p0-p1 on.
   const Eigen::RowVector4d edge(0.5, 0.5, 0, 0), vertex(0.125, 0.75, 0.125, 0);
   const auto shifted = [](const Eigen::RowVector4d& row) { return Eigen::RowVector4d(0, row[0], row[1], row[2]); };
-  LineMap line = LineMap::Identity();
+  Eigen::Matrix4d line = Eigen::Matrix4d::Identity();  // spline points = line * (p0, p1, p2, p3)
   double width = 1;
   for (; is_sharp(sharpness); sharpness = decayed(sharpness), width /= 2) {
     const double stays = std::min(1.0, static_cast<double>(sharpness));
     const Eigen::RowVector4d kept = stays * Eigen::RowVector4d(0, 1, 0, 0) + (1 - stays) * vertex;
-    LineMap nearer, farther;
+    Eigen::Matrix4d nearer, farther;
     nearer << edge, kept, shifted(edge), shifted(vertex);
     farther << kept, shifted(edge), shifted(vertex), shifted(shifted(edge));
-    across_.push_back({width / 2, width, farther * line});
+    add(side, width / 2, width, farther * line);
     line = nearer * line;
   }
-  across_.push_back({0, width, line});
+  add(side, 0, width, line);
 }
 
-std::vector<CreaseStrips::Strip> CreaseStrips::strips(const Vec3* points) const {
-  // The place in the grid of the point `along` the crease and so many lines `away` from the one beyond it.
-  const auto place = [&](std::size_t along, std::size_t away) {
-    const std::size_t line = side_ == 0 || side_ == 3 ? away : 3 - away;
-    return side_ % 2 == 0 ? 4 * line + along : 4 * along + line;
-  };
-  const Eigen::Index axis = side_ % 2 == 0 ? 1 : 0;
-  std::vector<Strip> result;
-  for (const Across& across : across_) {
-    std::array<Vec3, 16> spline;
-    for (std::size_t along = 0; along < 4; ++along) {
-      std::array<Vec3, 4> line;
-      for (std::size_t away = 0; away < 4; ++away) line[away] = grid_[place(along, away)].of(points);
-      for (std::size_t away = 0; away < 4; ++away) {
-        const auto weights = across.map.row(static_cast<Eigen::Index>(away));
-        spline[place(along, away)] =
-            (weights[0] * line[0] + weights[1] * line[1]) + (weights[2] * line[2] + weights[3] * line[3]);
-      }
-    }
-    Strip& strip = result.emplace_back(Strip{SubDomain(), BezierQuad::from_spline(spline)});
-    strip.domain.origin[axis] = side_ == 0 || side_ == 3 ? across.from : 1 - across.to;
-    strip.domain.scale[axis] = across.to - across.from;
-  }
-  return result;
+/// Between two distances from the crease. The side runs from the face's corner of that number to the next: lines count
+/// away from it, and the grid's rows and columns away from sides 0 and 3.
+void CreaseStrips::add(int side, double from, double to, const Eigen::Matrix4d& line) {
+  const bool from_below = side == 0 || side == 3;
+  const Eigen::Index axis = side % 2 == 0 ? 1 : 0;
+  const Eigen::Matrix4d turned = from_below ? line : Eigen::Matrix4d(line.reverse());
+  const Eigen::Matrix4d across = BezierQuad::spline_map() * turned, along = BezierQuad::spline_map();
+  Strip& strip = strips_.emplace_back(Strip{SubDomain(), {axis == 0 ? across : along, axis == 0 ? along : across}});
+  strip.domain.origin[axis] = from_below ? from : 1 - to;
+  strip.domain.scale[axis] = to - from;
+}
+
+std::array<Vec3, 16> CreaseStrips::grid(const Vec3* points) const {
+  std::array<Vec3, 16> grid;
+  for (std::size_t i = 0; i < 16; ++i) grid[i] = grid_[i].of(points);
+  return grid;
 }
 
 namespace {

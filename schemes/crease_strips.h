@@ -20,32 +20,26 @@ namespace shaolin {
 /// blends the rule at p1, f of it staying, as in schemes/sharpness.h.)
 class CreaseStrips {
  public:
+  /// A part of the patch, and what makes its Bezier points of the grid.
   struct Strip {
     SubDomain domain;
-    BezierQuad polynomial;
+    BezierQuad::Maps maps;
   };
 
-  /// How many there are: ceil(s) + 1.
-  std::size_t count() const { return across_.size(); }
+  /// Nearest to the crease last; ceil(s) + 1 of them.
+  const std::vector<Strip>& strips() const { return strips_; }
 
-  /// The strips of a patch with these control points, nearest to the crease last. O(s).
-  std::vector<Strip> strips(const Vec3* points) const;
+  /// The 4 x 4 points that all strips of a patch with these control points are made of, in rows along u.
+  std::array<Vec3, 16> grid(const Vec3* points) const;
 
  private:
   friend std::optional<CreaseStrips> crease_strips(const Neighbourhood&);
-  using LineMap = Eigen::Matrix4d;
-
-  /// At these distances from the crease, with its line of spline points = map * (p0, p1, p2, p3).
-  struct Across {
-    double from, to;
-    LineMap map;
-  };
 
   CreaseStrips(int side, float sharpness, std::vector<SplinePoint> grid);
+  void add(int side, double from, double to, const Eigen::Matrix4d& line);
 
-  int side_;  ///< of the face: from corner `side_` to the next
   std::vector<SplinePoint> grid_;
-  std::vector<Across> across_;
+  std::vector<Strip> strips_;
 };
 
 /// Empty for any other face. Takes the neighbourhood as regular_layout(); its creases must decay uniformly.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "numbering.h"
 #include "sharpness.h"
 
 namespace shaolin {
@@ -183,7 +184,12 @@ namespace {
 /// numbers. Its own lists live in one buffer, for they are many and short-lived.
 class CanonicalWalk {
  public:
-  explicit CanonicalWalk(bool copies) : copies_(copies) {}
+  explicit CanonicalWalk(bool copies) : copies_(copies) {
+    constexpr std::size_t most = 512;  // of a regular face, some 240 words
+    key.reserve(most);
+    vertices.reserve(most / 8);
+    faces_.reserve(most / 8);
+  }
 
   void over(const Neighbourhood& neighbourhood);
 
@@ -192,41 +198,39 @@ class CanonicalWalk {
 
  private:
   struct Known {
-    int id;
     FaceSides original, copy;
   };
   int vertex(int old) {
-    const auto [at, is_new] = vertex_numbers_.try_emplace(old, static_cast<int>(vertices.size()));
-    if (is_new) vertices.push_back(old);
-    return at->second;
+    const int number = vertex_numbers_({old});
+    if (number == static_cast<int>(vertices.size())) vertices.push_back(old);
+    return number;
   }
-  int edge(int old) { return edge_numbers_.try_emplace(old, static_cast<int>(edge_numbers_.size())).first->second; }
+  int edge(int old) { return edge_numbers_({old}); }
   void add_sharpness(float value) { key.push_back(std::bit_cast<int>(value)); }
   FaceSides face(const FaceSides& old);
   void ring(const Ring& old);
 
   bool copies_;
-  std::array<std::byte, 16384> buffer_;
-  std::pmr::monotonic_buffer_resource memory_{buffer_.data(), buffer_.size()};
-  std::pmr::unordered_map<int, int> vertex_numbers_{&memory_}, edge_numbers_{&memory_};
-  std::pmr::unordered_map<int, Known> faces_{&memory_};
+  Numbering<1> vertex_numbers_, edge_numbers_, face_numbers_;
+  std::vector<Known> faces_;  ///< by number
 };
 
 /// The face in the new numbers; empty without copies.
 FaceSides CanonicalWalk::face(const FaceSides& old) {
-  const auto [at, is_new] = faces_.try_emplace(old.id());
-  Known& known = at->second;
-  if (!is_new) {
+  const int id = face_numbers_({old.id()}), size = old.size();
+  if (id < static_cast<int>(faces_.size())) {
+    const Known& known = faces_[static_cast<std::size_t>(id)];
     const int turn = known.original.turn_to(old);
-    key.insert(key.end(), {known.id, turn});
+    key.push_back(id);
+    key.push_back(turn);
     return copies_ ? known.copy.turned(turn) : FaceSides();
   }
-  const int id = static_cast<int>(faces_.size()) - 1, size = old.size();
-  key.insert(key.end(), {id, size});
+  key.push_back(id);
+  key.push_back(size);
   const std::size_t first = key.size();
   for (int i = 0; i < size; ++i) key.push_back(vertex(old.vertex(i)));
   for (int i = 0; i < size; ++i) key.push_back(edge(old.side(i)));
-  known = {id, old, {}};
+  Known& known = faces_.emplace_back(Known{old, {}});
   if (!copies_) return {};
   const std::vector<int>& list = copy.lists.emplace_back(key.begin() + static_cast<std::ptrdiff_t>(first), key.end());
   return known.copy = FaceSides(id, list.data(), list.data() + size, size);

@@ -26,9 +26,9 @@ Refinement::Refinement(const Neighbourhood& parent, FaceKind kind, CreaseMethod 
 int Refinement::child_count() const { return kind_ == FaceKind::triangle ? 4 : parent_.face.size(); }
 
 int Refinement::vertex(const RefinedVertex& from) {
-  const auto [at, is_new] = numbers_.try_emplace(from, static_cast<int>(vertices_.size()));
-  if (is_new) vertices_.push_back(from);
-  return at->second;
+  const int number = numbers_({static_cast<int>(from.kind), from.id});
+  if (number == static_cast<int>(vertices_.size())) vertices_.push_back(from);
+  return number;
 }
 
 /// The next level's face of that identifier, whose vertices and sides `lists` tells if it is new; they are kept once.
@@ -45,7 +45,7 @@ FaceSides Refinement::made(int id, int size, Lists lists) {
 FaceSides Refinement::corner_face(const FaceSides& parent, int at, int first) {
   const int size = parent.size(), leaving = parent.side(at), entering = parent.side((at + size - 1) % size);
   const int corner = parent.vertex(at);
-  const int id = named(face_ids_, {0, parent.id(), leaving});
+  const int id = face_ids_({0, parent.id(), leaving});
   const auto quad = [&]() -> std::array<int, 8> {
     return {from_vertex(corner),   from_edge(leaving),          from_face(parent.id()),       from_edge(entering),
             half(leaving, corner), inner(parent.id(), leaving), inner(parent.id(), entering), half(entering, corner)};
@@ -65,7 +65,7 @@ FaceSides Refinement::middle_face(const FaceSides& parent, int first) {
   const auto middle = [&]() -> std::array<int, 8> {
     return {from_edge(b), from_edge(c), from_edge(a), 0, inner(id, a), inner(id, b), inner(id, c), 0};
   };
-  return seen_from_vertex(made(named(face_ids_, {1, id, 0}), 3, middle), first);
+  return seen_from_vertex(made(face_ids_({1, id, 0}), 3, middle), first);
 }
 
 FaceSides Refinement::child_face(int k) {
@@ -126,6 +126,8 @@ Ring Refinement::ring_of_vertex(int v) {
   result.closed = parent.closed;
   result.sharpness = decayed(parent.sharpness);
   result.cone = parent.cone;
+  result.spokes.reserve(parent.spokes.size());
+  result.faces.reserve(parent.faces.size());
   const SemiSharpEdges here = halves_around(v);
   for (const Ring::Spoke& spoke : parent.spokes) {
     SemiSharpEdges there(creases_);  // the edge's two halves meet at its new vertex
@@ -169,6 +171,8 @@ Ring Refinement::ring_of_edge(int edge) {
   Ring result;
   result.vertex = from_edge(edge);
   result.closed = place.left && place.right;
+  result.spokes.reserve(6);
+  result.faces.reserve(6);
   result.sharpness = a == b ? infinite_sharpness : 0;  // an edge between equal vertices is a point
   SemiSharpEdges here(creases_);
   here.add(spoke.near_half);
@@ -210,6 +214,8 @@ void Refinement::add_side(Ring& ring, const FaceSides& face, int at) {
 Ring Refinement::ring_of_face(const FaceSides& face) {
   Ring result;
   result.vertex = from_face(face.id());
+  result.spokes.reserve(static_cast<std::size_t>(face.size()));
+  result.faces.reserve(static_cast<std::size_t>(face.size()));
   for (int k = 0; k < face.size(); ++k) {
     result.spokes.push_back({from_edge(face.side(k)), inner(face.id(), face.side(k)), 0});
     result.faces.push_back(corner_face(face, (k + 1) % face.size(), result.vertex));

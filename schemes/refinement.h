@@ -5,9 +5,9 @@
 #include <deque>
 #include <map>
 #include <memory_resource>
-#include <tuple>
 #include <vector>
 
+#include "numbering.h"
 #include "ring.h"
 #include "scheme.h"
 #include "sharpness.h"
@@ -45,12 +45,8 @@ class Refinement {
 
   /// Identifiers of the next level's edges and faces: half an edge, the edge inside a face that ends on a side (quads)
   /// or runs along it (triangles), and the child at a corner (by the side that leaves it) or the middle one.
-  int half(int edge, int end) { return named(edge_ids_, {0, edge, end}); }
-  int inner(int face, int side) { return named(edge_ids_, {1, face, side}); }
-  using Names = std::pmr::map<std::tuple<int, int, int>, int>;
-  static int named(Names& names, std::tuple<int, int, int> name) {
-    return names.try_emplace(name, static_cast<int>(names.size())).first->second;
-  }
+  int half(int edge, int end) { return edge_ids_({0, edge, end}); }
+  int inner(int face, int side) { return edge_ids_({1, face, side}); }
 
   FaceSides child_face(int k);
   FaceSides corner_face(const FaceSides& parent, int at, int first);
@@ -80,9 +76,9 @@ class Refinement {
   CreaseMethod creases_;
   std::pmr::map<int, const Ring*> rings_{&memory_};
   std::pmr::map<int, FaceSides> faces_{&memory_};
-  std::pmr::map<RefinedVertex, int> numbers_{&memory_};
+  Numbering<2> numbers_;  ///< of vertices, by kind and identifier
   std::vector<RefinedVertex> vertices_;
-  Names edge_ids_{&memory_}, face_ids_{&memory_};
+  Numbering<3> edge_ids_, face_ids_;
   std::pmr::deque<FaceSides> children_{&memory_};        ///< the next level's faces by identifier
   std::pmr::deque<std::array<int, 8>> lists_{&memory_};  ///< that they look at: four vertices, four sides
 };

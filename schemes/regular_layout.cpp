@@ -144,17 +144,17 @@ template <>
 std::optional<RegularLayout<BezierQuad>> regular_layout(Basis basis, const Neighbourhood& n) {
   if (n.face.size() != 4) return std::nullopt;
   if (basis == Basis::none) return std::nullopt;
-  if (basis == Basis::linear) return RegularLayout<BezierQuad>{corners(n), BezierQuad::from_corners};
+  if (basis == Basis::linear) return RegularLayout<BezierQuad>{corners(n), basis};
   if (!std::all_of(n.rings.begin(), n.rings.begin() + 4, is_regular_quad_corner)) return std::nullopt;
-  return RegularLayout<BezierQuad>{bicubic_grid(n), BezierQuad::from_spline};
+  return RegularLayout<BezierQuad>{bicubic_grid(n), basis};
 }
 
 template <>
 std::optional<RegularLayout<BezierTriangle>> regular_layout(Basis basis, const Neighbourhood& n) {
   if (basis == Basis::none) return std::nullopt;
-  if (basis == Basis::linear) return RegularLayout<BezierTriangle>{corners(n), BezierTriangle::from_corners};
+  if (basis == Basis::linear) return RegularLayout<BezierTriangle>{corners(n), basis};
   if (!std::all_of(n.rings.begin(), n.rings.begin() + 3, is_regular_triangle_corner)) return std::nullopt;
-  return RegularLayout<BezierTriangle>{box_spline_points(n), BezierTriangle::from_spline};
+  return RegularLayout<BezierTriangle>{box_spline_points(n), basis};
 }
 
 }  // namespace shaolin

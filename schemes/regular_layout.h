@@ -9,6 +9,7 @@
 #include "bezier_quad.h"
 #include "bezier_triangle.h"
 #include "neighbourhood.h"
+#include "scheme.h"
 
 namespace shaolin {
 
@@ -38,19 +39,24 @@ struct SplinePoint {
 template <class Bezier>
 struct RegularLayout {
   std::vector<SplinePoint> points;
-  Bezier (*bezier)(const std::array<Vec3, Bezier::spline_size>&);  ///< reads the first points.size() of them
+  Basis basis;  ///< not `none`
 
-  /// True if the spline reaches beyond all sides and has a point of the surface at each place: then the polynomials there
-  /// continue this one as smoothly as the spline. (No phantoms; linear patches reach nowhere.)
+  /// True if the spline reaches beyond all sides and has a point of the surface at each place: then the polynomials
+  /// there continue this one as smoothly as the spline. (No phantoms; linear patches reach nowhere.)
   bool is_smooth_across() const {
     return points.size() == Bezier::spline_size &&
            std::all_of(points.begin(), points.end(), [](const SplinePoint& point) { return point.count == 1; });
   }
 
-  Bezier patch(const Vec3* control) const {
+  /// The first points.size() are set.
+  std::array<Vec3, Bezier::spline_size> spline(const Vec3* control) const {
     std::array<Vec3, Bezier::spline_size> spline;
     for (std::size_t i = 0; i < points.size(); ++i) spline[i] = points[i].of(control);
-    return bezier(spline);
+    return spline;
+  }
+
+  Bezier patch(const Vec3* control) const {
+    return basis == Basis::linear ? Bezier::from_corners(spline(control)) : Bezier::from_spline(spline(control));
   }
 };
 

@@ -11,7 +11,7 @@
 
 #include "intersect/face_bounds.h"
 #include "intersect/newton_finish.h"
-#include "intersect/patch_tree.h"
+#include "intersect/parts.h"
 #include "intersect/ray_frame.h"
 #include "schemes/catmull_clark.h"
 #include "schemes/limit_surface.h"
@@ -106,8 +106,9 @@ void add_all(const std::string& model, ControlMesh mesh) {
       [=](std::size_t i) { return subject->irregular[i].children().size(); });
   add(name("parts of an irregular patch"), subject->irregular.size(),
       [=](std::size_t i) { return Parts<S>(*PatchNode<S>::make(subject->irregular[i], {}), space).splits(); });
-  add(name("parts of a polynomial"), subject->polynomials.size(),
-      [=](std::size_t i) { return Parts<S>(PolynomialPatch<S>(subject->polynomials[i], {}, false), space).splits(); });
+  add(name("parts of a polynomial"), subject->polynomials.size(), [=](std::size_t i) {
+    return Parts<S>(LonePolynomialPatch<S>(subject->polynomials[i], {}, false, 0), space).splits();
+  });
   add(name("bound a polynomial"), subject->nets.size(), [=](std::size_t i) { return hull_of(subject->nets[i]); });
   add(name("make a coordinate of a piece"), subject->nets.size(), [=](std::size_t i) {
     std::array<double, 16> piece;
