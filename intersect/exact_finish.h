@@ -314,6 +314,7 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
 template <Scheme S>
 SHAOLIN_FLATTEN bool ExactFinish<S>::Search::project(const SplineWindow<Polynomial>& patch, int number, Net& piece) {
   const auto make = [&](RayFrame::Axis axis, std::array<double, 16>& to) {
+    if (number == 0) return frame().project(patch, axis, to);
     std::array<double, 16> whole;
     frame().project(patch, axis, whole);
     pieces_of<Polynomial>.restrict_to(number, whole, to);

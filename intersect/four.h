@@ -3,6 +3,7 @@
 /// registers on every other x86-64, a loop elsewhere. All three round alike, so answers are the same.
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -39,6 +40,15 @@ class Four {
   friend Four sums(Four a, Four b, Four c, Four d) {
     const __m256d ab = _mm256_hadd_pd(a.value_, b.value_), cd = _mm256_hadd_pd(c.value_, d.value_);
     return Four(_mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x20), _mm256_permute2f128_pd(ab, cd, 0x31)));
+  }
+  /// Rows become columns.
+  friend void transpose(Four& a, Four& b, Four& c, Four& d) {
+    const __m256d ab_even = _mm256_unpacklo_pd(a.value_, b.value_), ab_odd = _mm256_unpackhi_pd(a.value_, b.value_);
+    const __m256d cd_even = _mm256_unpacklo_pd(c.value_, d.value_), cd_odd = _mm256_unpackhi_pd(c.value_, d.value_);
+    a = Four(_mm256_permute2f128_pd(ab_even, cd_even, 0x20));
+    b = Four(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x20));
+    c = Four(_mm256_permute2f128_pd(ab_even, cd_even, 0x31));
+    d = Four(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x31));
   }
 
  private:
@@ -80,6 +90,16 @@ class Four {
     const auto pairs = [](__m128d x, __m128d y) { return _mm_add_pd(_mm_unpacklo_pd(x, y), _mm_unpackhi_pd(x, y)); };
     return {_mm_add_pd(pairs(a.low_, b.low_), pairs(a.high_, b.high_)),
             _mm_add_pd(pairs(c.low_, d.low_), pairs(c.high_, d.high_))};
+  }
+  /// Rows become columns.
+  friend void transpose(Four& a, Four& b, Four& c, Four& d) {
+    const Four p(_mm_unpacklo_pd(a.low_, b.low_), _mm_unpacklo_pd(c.low_, d.low_));
+    const Four q(_mm_unpackhi_pd(a.low_, b.low_), _mm_unpackhi_pd(c.low_, d.low_));
+    const Four r(_mm_unpacklo_pd(a.high_, b.high_), _mm_unpacklo_pd(c.high_, d.high_));
+    d = Four(_mm_unpackhi_pd(a.high_, b.high_), _mm_unpackhi_pd(c.high_, d.high_));
+    a = p;
+    b = q;
+    c = r;
   }
 
  private:
@@ -125,6 +145,11 @@ class Four {
   friend Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
     const auto sum = [](const Four& x) { return (x.value_[0] + x.value_[1]) + (x.value_[2] + x.value_[3]); };
     return {sum(a), sum(b), sum(c), sum(d)};
+  }
+  friend void transpose(Four& a, Four& b, Four& c, Four& d) {
+    const std::array<Four*, 4> rows{&a, &b, &c, &d};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j) std::swap(rows[i]->value_[j], rows[j]->value_[i]);
   }
 
  private:

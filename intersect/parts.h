@@ -235,7 +235,7 @@ void Parts<S>::take_strips(const IrregularPatch<S>& patch, const CreaseStrips& s
   grid.b = strips.grid(patch.patch().points.data());
   const double* const points = keep(Net(grid));
   for (const CreaseStrips::Strip& strip : strips.strips())
-    parts.push_back(keep({{points, 4, 16, strip.maps}, patch.place().part(strip.domain), false}));
+    parts.push_back(keep({{points, 4, strip.maps}, patch.place().part(strip.domain), false}));
 }
 
 template <Scheme S>
@@ -246,7 +246,7 @@ void Parts<S>::take_children(const IrregularPatch<S>& patch, std::vector<Draft>&
   for (std::size_t k = 0; k < children.size(); ++k) {
     const Place place = patch.place().part(child_domain<S::face_kind>(static_cast<int>(k)));
     if (const auto& layout = children[k].configuration->layout()) {
-      if (!windows[k]) windows[k].emplace(keep(Net(children[k].regular())), 4, 16, RowMap<Polynomial>::identity());
+      if (!windows[k]) windows[k].emplace(keep(Net(children[k].regular())), 4, RowMap<Polynomial>::identity());
       parts.push_back(keep({*windows[k], place, layout->is_smooth_across()}));
     } else {
       irregular_.push_back(std::make_unique<IrregularPatch<S>>(std::move(children[k]), place));
@@ -270,8 +270,7 @@ void Parts<S>::share(const std::vector<Patch<S>>& children, std::vector<std::opt
   if (std::count(first.begin(), first.end(), std::nullopt) > 2) return;
   const double* const points = keep(grid.coordinates());
   for (std::size_t k = 0; k < first.size(); ++k)
-    if (first[k])
-      windows[k].emplace(points + *first[k], SplineGrid::side, SplineGrid::plane, RowMap<Polynomial>::of_spline());
+    if (first[k]) windows[k].emplace(points + *first[k], SplineGrid::side, RowMap<Polynomial>::of_spline());
 }
 
 template <Scheme S>
@@ -312,7 +311,7 @@ auto Parts<S>::keep(const PolynomialPatch<S>& patch) -> Draft {
 template <Scheme S>
 auto Parts<S>::as_patch(const Draft& piece) -> Draft {
   const PolynomialPatch<S>& whole = polynomials_[piece.index];
-  return keep({{keep(Net(piece.polynomial)), 4, 16, RowMap<Polynomial>::identity()},
+  return keep({{keep(Net(piece.polynomial)), 4, RowMap<Polynomial>::identity()},
                whole.place().part(Pieces<Polynomial>::domain(piece.number)),
                whole.is_smooth_across(),
                piece.halvings});

@@ -23,14 +23,15 @@ class Place {
  public:
   Place() = default;
   Place(const SubDomain& domain, int root_level, double rounding)
-      : origin_(domain.origin),
+      : u_(domain.origin.x()),
+        v_(domain.origin.y()),
         rounding_(rounding),
         u_halvings_(static_cast<std::int16_t>(-std::ilogb(domain.scale.x()))),
         v_halvings_(static_cast<std::int16_t>(-std::ilogb(domain.scale.y()))),
         root_level_(static_cast<std::int8_t>(root_level)),
         is_turned_(domain.scale.x() < 0) {}
 
-  SubDomain domain() const { return {origin_, {scale(u_halvings_), scale(v_halvings_)}}; }
+  SubDomain domain() const { return {{u_, v_}, {scale(u_halvings_), scale(v_halvings_)}}; }
   int level() const { return root_level_ + std::max(u_halvings_, v_halvings_); }
   /// Box::rounding() of the root's points: a small piece carries the errors of what it was made of.
   double rounding() const { return rounding_; }
@@ -42,8 +43,8 @@ class Place {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 - k) << 52);
   }
 
-  // There are many: a domain's scale is kept by its exponents.
-  Parameter origin_ = Parameter::Zero();
+  // There are many: a domain's scale is kept by its exponents. (And its origin without Parameter's alignment.)
+  double u_ = 0, v_ = 0;
   double rounding_ = 0;
   std::int16_t u_halvings_ = 0, v_halvings_ = 0;
   std::int8_t root_level_ = 0;
@@ -94,7 +95,9 @@ class PolynomialPatch : public PatchNode<S> {
       : PatchNode<S>(place, true, is_flat_enough(checked(window), halvings)),
         is_smooth_across_(is_smooth_across),
         halvings_(static_cast<std::int8_t>(halvings)),
-        window_(window) {}
+        side_(static_cast<std::uint8_t>(window.side())),
+        map_(window.to_bezier()),
+        first_(window.first()) {}
 
   /// True for a polynomial flat enough for the finish to take on: its derivatives stay within 0.45 of the mean
   /// ones, so that seen from most directions the projection to the ray's frame is one to one. (A smaller share makes
@@ -105,8 +108,8 @@ class PolynomialPatch : public PatchNode<S> {
   /// True where the polynomials beyond all sides and corners are known to continue this one to second order: all its
   /// spline's points are the surface's, with no crease and no irregular vertex next to it.
   bool is_smooth_across() const { return is_smooth_across_; }
-  const Window& window() const { return window_; }
-  Net net() const { return window_.net(); }
+  Window window() const { return {first_, side_, map_}; }
+  Net net() const { return window().net(); }
   Polynomial polynomial() const { return net().template bezier<Polynomial>(); }
   int halvings() const { return halvings_; }
   Box bound() const override { return hull_of(net()).grown(this->place().rounding()); }
@@ -119,9 +122,12 @@ class PolynomialPatch : public PatchNode<S> {
     return polynomial;
   }
 
+  // There are many: the window's parts fit into 64 bytes with the rest.
   bool is_smooth_across_;
   std::int8_t halvings_;
-  Window window_;
+  std::uint8_t side_;
+  [[no_unique_address]] RowMap<Polynomial> map_;
+  const double* first_;
 };
 
 /// Points of a patch's own, sixteen a coordinate. (A base, so that they are there before the patch.)
@@ -137,7 +143,7 @@ class LonePolynomialPatch final : private OwnPoints, public PolynomialPatch<S> {
  public:
   LonePolynomialPatch(const Polynomial& polynomial, const Place& place, bool is_smooth_across, int halvings = 0)
       : OwnPoints{by_coordinate(Net(polynomial))},
-        PolynomialPatch<S>({points.data(), 4, 16, RowMap<Polynomial>::identity()}, place, is_smooth_across, halvings) {}
+        PolynomialPatch<S>({points.data(), 4, RowMap<Polynomial>::identity()}, place, is_smooth_across, halvings) {}
   LonePolynomialPatch(const LonePolynomialPatch&) = delete;
   std::uint64_t bytes() const override { return sizeof *this; }
 };

@@ -67,11 +67,13 @@ class RayFrame {
   /// A bound on the error of a coordinate of a point that is known to within rounding, for points in `box`.
   ///
   /// With u = 2^-53, M the largest coordinate of the box and Q the largest of the box relative to the origin: the
-  /// control points of a patch are the input's, put through up to l levels of convex combinations and a conversion to
-  /// Bezier form; each rounds with at most 6 u M, and convex combinations do not amplify, so 6 (l + 2) u M; levels
-  /// above 8 come with patches so small that their sums are of nearly equal terms, 64 u M covers them. Subtracting the
-  /// origin and a scalar product of three terms with a frame vector, itself good to 6 u, gives (1 + 3 + 6) u sqrt(3) Q
-  /// < 18 u Q. Evaluation of the polynomial stays below 16 u of either. Twice the sum leaves room for second order.
+  /// control points of a patch are the input's, put through up to l levels of convex combinations; each rounds with at
+  /// most 6 u M, and convex combinations do not amplify, so 6 (l + 1) u M; levels above 8 come with patches so small
+  /// that their sums are of nearly equal terms, 64 u M covers them. Subtracting the origin and a scalar product of
+  /// three terms with a frame vector, itself good to 6 u, gives (1 + 3 + 6) u sqrt(3) Q < 18 u Q. What is no Bezier
+  /// point yet becomes one then, by convex combinations along u and v, 4 u of a coordinate each: 14 u Q. Evaluation of
+  /// the polynomial stays below 16 u of either. Twice the first sum, and a third more than the second, leave room for
+  /// second order.
   double error(const Box& box) const {
     const double relative =
         std::max((box.lower - origin_).cwiseAbs().maxCoeff(), (box.upper - origin_).cwiseAbs().maxCoeff());

@@ -1,7 +1,7 @@
 #pragma once
 /// Polynomial patches by rows of control points, which neighbours may share.
 #include <array>
-#include <cstdint>
+#include <cstddef>
 
 #include "../schemes/regular_layout.h"
 #include "net.h"
@@ -18,6 +18,7 @@ class RowMap;
 /// By linear maps along u and v, which are kept elsewhere, for as long as this is used.
 template <>
 class RowMap<BezierQuad> {
+  using LineMap = BezierQuad::LineMap;
   using Maps = BezierQuad::Maps;
 
  public:
@@ -25,7 +26,7 @@ class RowMap<BezierQuad> {
 
   /// The rows are Bezier points.
   static RowMap identity() {
-    static const Maps maps{Eigen::Matrix4d::Identity(), Eigen::Matrix4d::Identity()};
+    static const Maps maps{BezierQuad::identity_map(), BezierQuad::identity_map()};
     return maps;
   }
   /// The rows are points of the uniform bicubic B-spline.
@@ -34,24 +35,42 @@ class RowMap<BezierQuad> {
     return maps;
   }
 
-  void operator()(const Rows& rows, std::array<double, 16>& bezier) const {
-    const double *const u = maps_->u.data(), *const v = maps_->v.data();  // by columns
-    for (std::size_t j = 0; j < 4; ++j)
-      ((Four(v[j]) * rows[0] + Four(v[j + 4]) * rows[1]) + (Four(v[j + 8]) * rows[2] + Four(v[j + 12]) * rows[3]))
-          .store(&bezier[4 * j]);
-    const Four u0(u), u1(u + 4), u2(u + 8), u3(u + 12);
-    for (std::size_t j = 0; j < 16; j += 4)
-      ((u0 * Four(bezier[j]) + u1 * Four(bezier[j + 1])) + (u2 * Four(bezier[j + 2]) + u3 * Four(bezier[j + 3])))
-          .store(&bezier[j]);
+  void operator()(Rows rows, std::array<double, 16>& bezier) const {
+    across(maps_->v, rows);
+    if (maps_->u.kind != LineMap::Kind::identity) {
+      transpose(rows[0], rows[1], rows[2], rows[3]);
+      across(maps_->u, rows);
+      transpose(rows[0], rows[1], rows[2], rows[3]);
+    }
+    for (std::size_t j = 0; j < 4; ++j) rows[j].store(&bezier[4 * j]);
   }
 
   /// What the places of a row, or of a column, weigh where Bezier points weigh this much.
-  Four u_weights(Four w) const { return transposed(maps_->u.data(), w); }
-  Four v_weights(Four w) const { return transposed(maps_->v.data(), w); }
+  Four u_weights(Four w) const { return transposed(maps_->u, w); }
+  Four v_weights(Four w) const { return transposed(maps_->v, w); }
 
  private:
-  static Four transposed(const double* map, Four w) {
-    return sums(Four(map) * w, Four(map + 4) * w, Four(map + 8) * w, Four(map + 12) * w);
+  /// Maps four lines, place by place. The spline's, by thirds: its Bezier points are a third of the way from point to
+  /// point, and the middles of those.
+  static void across(const LineMap& map, Rows& lines) {
+    const Four p0 = lines[0], p1 = lines[1], p2 = lines[2], p3 = lines[3];
+    if (map.kind == LineMap::Kind::spline) {
+      const Four third(1.0 / 3), half(0.5), step = third * (p2 - p1);
+      lines[1] = p1 + step;
+      lines[2] = p2 - step;
+      lines[0] = half * ((p1 - third * (p1 - p0)) + lines[1]);
+      lines[3] = half * (lines[2] + (p2 + third * (p3 - p2)));
+    } else if (map.kind == LineMap::Kind::other) {
+      const double* const w = map.matrix.data();  // by columns
+      for (std::size_t j = 0; j < 4; ++j)
+        lines[j] = (Four(w[j]) * p0 + Four(w[j + 4]) * p1) + (Four(w[j + 8]) * p2 + Four(w[j + 12]) * p3);
+    }
+  }
+
+  static Four transposed(const LineMap& map, Four w) {
+    if (map.kind == LineMap::Kind::identity) return w;
+    const double* const m = map.matrix.data();
+    return sums(Four(m) * w, Four(m + 4) * w, Four(m + 8) * w, Four(m + 12) * w);
   }
 
   const Maps* maps_;
@@ -72,15 +91,14 @@ class RowMap<BezierTriangle> {
 template <class Bezier>
 class SplineWindow {
  public:
-  /// `first`: x of the first place. Rows are `stride` doubles apart, coordinates `plane`.
-  SplineWindow(const double* first, std::size_t stride, std::size_t plane, const RowMap<Bezier>& map)
-      : map_(map),
-        first_(first),
-        stride_(static_cast<std::uint8_t>(stride)),
-        plane_(static_cast<std::uint8_t>(plane)) {}
+  /// `first`: x of the first place of a square grid with so many places a side, whose coordinates follow each other.
+  SplineWindow(const double* first, std::size_t side, const RowMap<Bezier>& map)
+      : map_(map), first_(first), side_(side) {}
 
-  Four row(std::size_t coordinate, std::size_t j) const { return Four(first_ + coordinate * plane_ + j * stride_); }
+  Four row(std::size_t coordinate, std::size_t j) const { return Four(first_ + (coordinate * side_ + j) * side_); }
   const RowMap<Bezier>& to_bezier() const { return map_; }
+  const double* first() const { return first_; }
+  std::size_t side() const { return side_; }
 
   /// The Bezier points.
   Net net() const {
@@ -96,7 +114,7 @@ class SplineWindow {
  private:
   [[no_unique_address]] RowMap<Bezier> map_;
   const double* first_;
-  std::uint8_t stride_, plane_;
+  std::size_t side_;
 };
 
 /// The spline points of the bicubics that a quad splits into: five rows of five places, of which each child's window is

@@ -26,17 +26,24 @@ struct BezierQuad {
     return result;
   }
 
-  /// The same along one direction: four Bezier points = map * four points of the spline.
-  static Eigen::Matrix4d spline_map() {
-    Eigen::Matrix4d map;
-    map << 1, 4, 1, 0, 0, 4, 2, 0, 0, 2, 4, 0, 0, 1, 4, 1;
-    return map / 6;
-  }
-
-  /// Linear maps along u and v: Bezier points = v P u^T, coordinate by coordinate, of 4 x 4 points P in rows along u.
-  struct Maps {
-    Eigen::Matrix4d u, v;
+  /// Along one direction: four Bezier points = matrix * four others.
+  struct LineMap {
+    Eigen::Matrix4d matrix;
+    enum class Kind { identity, spline, other } kind;
   };
+  /// Along both: Bezier points = v P u^T, coordinate by coordinate, of 4 x 4 points P in rows along u.
+  struct Maps {
+    LineMap u, v;
+  };
+
+  static LineMap identity_map() { return {Eigen::Matrix4d::Identity(), LineMap::Kind::identity}; }
+  /// What from_spline() does.
+  static LineMap spline_map() {
+    LineMap map{{}, LineMap::Kind::spline};
+    map.matrix << 1, 4, 1, 0, 0, 4, 2, 0, 0, 2, 4, 0, 0, 1, 4, 1;
+    map.matrix /= 6;
+    return map;
+  }
 
   /// The bilinear patch over the first four points, its corners in order (cubic by raising the degree: thirds along
   /// each side).

@@ -30,7 +30,8 @@ void CreaseStrips::add(int side, double from, double to, const Eigen::Matrix4d& 
   const bool from_below = side == 0 || side == 3;
   const Eigen::Index axis = side % 2 == 0 ? 1 : 0;
   const Eigen::Matrix4d turned = from_below ? line : Eigen::Matrix4d(line.reverse());
-  const Eigen::Matrix4d across = BezierQuad::spline_map() * turned, along = BezierQuad::spline_map();
+  const BezierQuad::LineMap along = BezierQuad::spline_map();
+  const BezierQuad::LineMap across{along.matrix * turned, BezierQuad::LineMap::Kind::other};
   Strip& strip = strips_.emplace_back(Strip{SubDomain(), {axis == 0 ? across : along, axis == 0 ? along : across}});
   strip.domain.origin[axis] = from_below ? from : 1 - to;
   strip.domain.scale[axis] = to - from;

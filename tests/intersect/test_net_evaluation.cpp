@@ -18,7 +18,7 @@ TEMPLATE_TEST_CASE("Nets are evaluated as their patches are", "[intersect][finis
     const Derivatives expected = patch.derivatives(at);
 
     const std::array<double, 48> points = by_coordinate(net);
-    const Jet whole = jet(SplineWindow<TestType>(points.data(), 4, 16, RowMap<TestType>::identity()), at);
+    const Jet whole = jet(SplineWindow<TestType>(points.data(), 4, RowMap<TestType>::identity()), at);
     const Derivatives& found = whole.derivatives;
     jets = std::max({jets, (whole.position - position).norm(), (found.du - expected.du).norm(),
                      (found.dv - expected.dv).norm(), (found.duu - expected.duu).norm(),

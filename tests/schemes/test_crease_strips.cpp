@@ -39,7 +39,7 @@ BezierQuad polynomial_of(const CreaseStrips::Strip& strip, const std::array<Vec3
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     Eigen::Matrix4d points;
     for (Eigen::Index i = 0; i < 16; ++i) points(i / 4, i % 4) = grid[static_cast<std::size_t>(i)][axis];
-    const Eigen::Matrix4d bezier = strip.maps.v * points * strip.maps.u.transpose();
+    const Eigen::Matrix4d bezier = strip.maps.v.matrix * points * strip.maps.u.matrix.transpose();
     for (Eigen::Index i = 0; i < 16; ++i) polynomial.b[static_cast<std::size_t>(i)][axis] = bezier(i / 4, i % 4);
   }
   return polynomial;
