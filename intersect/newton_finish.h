@@ -349,7 +349,9 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     const bool is_last = step.squaredNorm() <= shortest * shortest;
     if (on_ray || (is_last && D::contains(at + step))) {
       const Eigen::Vector2d whole = is_last ? step : Eigen::Vector2d::Zero();
-      const Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
+      Eigen::Vector2d last = is_last ? Eigen::Vector2d(D::nearest(at + step) - at) : Eigen::Vector2d::Zero();
+      // Where u and v run nearly one way, a step cut off at the domain's side may lead away from the ray.
+      if (on_ray && !((f + jacobian * last).cwiseAbs().maxCoeff() <= off)) last.setZero();
       std::array<double, 4> at_z;
       evaluation(cell.z).store(at_z.data());
       hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true,

@@ -249,6 +249,33 @@ TEST_CASE("A grazing ray is met as exactly as the map allows", "[intersect][fini
   }
 }
 
+TEST_CASE("A hit at a corner stays on the ray where u and v run nearly one way", "[intersect][finish]") {
+  // A quarter of a needle of length 1e6, through whose tip a ray goes to within rounding.
+  BezierQuad patch;
+  patch.b = {Vec3(2.9103830456733704e-10, 0, 5188316.3283173824),
+             Vec3(12090.049631186179, 6191.0748772403458, 5163723.6789057991),
+             Vec3(21157.612646861002, 10834.393039179267, 5145279.1371404678),
+             Vec3(27958.313440759841, 14316.897188623785, 5131445.6827208595),
+             Vec3(12090.083645643434, 6191.1497569349594, 5163723.8933993429),
+             Vec3(21157.624101516092, 10834.448816901655, 5145279.3577064034),
+             Vec3(27958.304635136679, 14316.934848288773, 5131445.9027397744),
+             Vec3(33058.842885385035, 16928.814541809494, 5121070.7647464694),
+             Vec3(21157.671208489919, 10834.508610878605, 5145279.5698704589),
+             Vec3(27958.329754606879, 14316.976079804823, 5131446.1210252689),
+             Vec3(33058.848356158764, 16928.838158059516, 5121070.9827552699),
+             Vec3(36884.264556050068, 18887.749535695999, 5113289.5836479776),
+             Vec3(27958.383635266684, 14317.021200192976, 5131446.32996294),
+             Vec3(33058.88073150022, 16928.865182044683, 5121071.1974234134),
+             Vec3(36884.277842251235, 18887.759408033453, 5113289.7978746742),
+             Vec3(39753.352412705135, 20356.944574010675, 5107453.7041062275)};
+  constexpr double error = 1.3e-7;
+  RayCounters counters;
+  NewtonFinish<BezierQuad> finish(error, 0, infinity, false, counters);
+  REQUIRE(finish.solve(Net(patch)));
+  const Vec3 position = patch.position(finish.hit().at);
+  CHECK(std::max(std::abs(position.x()), std::abs(position.y())) <= 2 * error);
+}
+
 TEMPLATE_TEST_CASE("A ray through a corner or a side hits", "[intersect][finish]", BezierQuad, BezierTriangle) {
   Random random(52);
   using D = typename TestType::DomainType;

@@ -78,7 +78,11 @@ Probe silhouette_probe(const Subject& subject, SampleRandom& random) {
   const double u = aim.at.u - back * section.way.x(), v = aim.at.v - back * section.way.y();
   const double far = subject.surface().triangular() ? u + v : std::max(u, v);
   if (!(std::min(u, v) >= 0 && far <= 1)) return probe;
-  const double height = (subject.evaluate({aim.at.face, aim.at.sub, u, v}).position - aim.position).dot(inward);
+  // The surface goes on beside the ray as well: how high it is at the ray its slope says, to first order.
+  const LimitSample behind = subject.evaluate({aim.at.face, aim.at.sub, u, v});
+  const Vec3 offset = behind.position - aim.position, side = direction.cross(inward);
+  const double slope = std::abs(behind.normal.dot(side) / behind.normal.dot(inward));
+  const double height = offset.dot(inward) - 2 * slope * std::abs(offset.dot(side));
   // Below sixteen times the bound of rounding it may be a matter of rounding whether there are roots.
   if (height >= 2 * depth && depth > 16 * subject.rounding(probe.ray)) {
     const double t = (aim.position - probe.ray.origin).dot(direction) / probe.ray.direction.dot(direction);
