@@ -203,6 +203,7 @@ void Check::first(const Ray& ray, const std::optional<Hit>& hit, std::span<const
   });
   if (ahead == all.end()) return;
   const double latest = ahead->hit.t + slack(ray, cosine_of(ray, ahead->hit));
+  if (hit && hit->t > latest && runs_along(ray, ahead->hit.t, hit->t)) return leave_undecided();
   if (!hit || hit->t > latest)
     fail(Fault::lost, ray,
          "of all hits the first is " + text(ahead->hit) + ", the closest " + (hit ? text(*hit) : "none"));
