@@ -14,9 +14,10 @@ namespace shaolin {
 template <Scheme S>
 Vec3 chord_plane_normal(const Patch<S>& patch) {
   std::vector<Vec3> corners;
-  for (int k = 0; k < patch.configuration->corner_count(); ++k) {
+  const FaceSides& face = patch.configuration->neighbourhood().face;  // it may repeat a vertex
+  for (int k = 0; k < face.size(); ++k) {
     const std::optional<LimitAtCorner> limit = corner_limit(patch, k);
-    corners.push_back(limit ? limit->position : patch.points[static_cast<std::size_t>(k)]);
+    corners.push_back(limit ? limit->position : patch.points[static_cast<std::size_t>(face.vertex(k))]);
   }
   using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
   return Base::chord_normal(corners);

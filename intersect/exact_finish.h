@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "../schemes/mesh.h"
 #include "../schemes/scheme_surface.h"
@@ -56,7 +57,10 @@ class ExactFinish {
     /// nearly parallel to, and limits take masks. Zero if the corners span none.
     static Vec3 plane_normal(const Patch<S>& patch) {
       using Base = std::conditional_t<S::face_kind == FaceKind::triangle, TriangleMesh, QuadMesh>;
-      return Base::chord_normal({patch.points.begin(), patch.points.begin() + patch.configuration->corner_count()});
+      std::vector<Vec3> corners;
+      const FaceSides& face = patch.configuration->neighbourhood().face;  // it may repeat a vertex
+      for (int k = 0; k < face.size(); ++k) corners.push_back(patch.points[static_cast<std::size_t>(face.vertex(k))]);
+      return Base::chord_normal(corners);
     }
 
     // What every ray reads that reaches the patch comes first, in one cache line.
