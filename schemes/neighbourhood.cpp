@@ -1,12 +1,9 @@
 #include "neighbourhood.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
-#include <cstddef>
 #include <iterator>
-#include <memory_resource>
 #include <optional>
 #include <unordered_map>
 
