@@ -105,6 +105,15 @@ Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, c
   return turns > 0 ? Sense::leaves : turns < 0 ? Sense::enters : Sense::touches;
 }
 
+/// Of contacts at one place: which is least uncertain, the nearest of several.
+const Contact& surest_of(std::span<const Contact> contacts) {
+  const auto rank = [](const Contact& c) {
+    return std::tie(c.uncertainty, c.distance, c.hit.at.face, c.hit.at.sub);
+  };
+  return *std::min_element(contacts.begin(), contacts.end(),
+                           [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
+}
+
 /// Of contacts at one place.
 std::optional<Hit> closest_of(std::span<const Contact> contacts, const ClosestBetween& closest) {
   double begin = std::numeric_limits<double>::infinity(), end = -begin;
@@ -169,7 +178,8 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurfac
     const std::size_t first = group[order[i]];
     together.clear();
     for (; i < order.size() && group[order[i]] == first; ++i) together.push_back(contacts[order[i]]);
-    if (const std::optional<Hit> hit = contacts[first].is_coarse ? closest_of(together, closest) : contacts[first].hit)
+    const Contact& surest = surest_of(together);
+    if (const std::optional<Hit> hit = surest.is_coarse ? closest_of(together, closest) : surest.hit)
       result.push_back({*hit, sense_of(together, surface, direction)});
   }
   // What stood in for a coarse contact may be farther than the next one.

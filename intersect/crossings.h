@@ -56,8 +56,8 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// way it goes is a matter of winding: around the ray, the faces at the point turn by 2 pi in all if the surface
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). A face
 /// counts pi (of its edge, or of all of its inner points), and of a corner the angle between its sides; contacts of
-/// one face with opposite signs (a double root) cancel. The nearest contact stands for all; at equal distances the one
-/// of the lowest face and sub. If it is coarse (of a ray that runs along the surface), the closest hit does that lies
+/// one face with opposite signs (a double root) cancel. The least uncertain contact stands for all (at a corner a ray may
+/// graze one face and cross another); of equal ones the nearest, of the lowest face and sub. If it is coarse (of a ray that runs along the surface), the closest hit does that lies
 /// where the contacts may be; without one there is no crossing. O(n log n + n f) for contacts of f faces.
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
                                 const ClosestBetween& closest);

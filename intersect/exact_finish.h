@@ -113,8 +113,6 @@ class ExactFinish {
     hit.level = found.level;
     if (!found.patch->is_polynomial()) {
       hit.sample = *surface.evaluate(hit.at);
-      if (!found.patch->is_leaf())
-        hit.sample.position = static_cast<const IrregularPatch<S>&>(*found.patch).patch().points.front();
       return hit;
     }
     const Jet jet = this->jet(found);
@@ -155,7 +153,7 @@ class ExactFinish {
     }
     bool project(const SplineWindow<Polynomial>& patch, int number, Net& piece);
     void finish_by_refinement(const IrregularPatch<S>& patch);
-    void finish_as_point(const PatchNode<S>& patch, const Vec3& point, const Box& hull);
+    void finish_as_point(const PatchNode<S>& patch, const Patch<S>& irregular, const Box& hull);
 
     /// The ray's frame, and the error of coordinates in it, made when a patch first asks: most rays miss the boxes of
     /// most patches.
@@ -286,7 +284,7 @@ bool ExactFinish<S>::Search::may_meet(const PatchNode<S>& patch, bool is_tiny) {
   // Around an irregular corner patches shrink without end; one that lies within rounding of the ray is a point.
   if (is_tiny && std::max({high.x(), -low.x(), high.y(), -low.y()}) <= 4 * error_ &&
       high.z() - low.z() <= 64 * error_) {
-    finish_as_point(patch, irregular.points.front(), hull);
+    finish_as_point(patch, irregular, hull);
     return false;
   }
   // Where patches shrink by 0.93 a level or less, rounding error is reached in as many levels.
@@ -341,13 +339,28 @@ void ExactFinish<S>::Search::finish_by_refinement(const IrregularPatch<S>& patch
   solve(solver, projected, [&](const PatchHit& hit) { take(patch, hit, patch.place().level()); });
 }
 
-/// The whole patch is one point to within rounding: the irregular corner's limit.
+/// The whole patch is one point to within rounding, and the irregular corner stands for it: rays aimed there are the
+/// most likely to come here, and evaluation is exact there. It is the corner whose part is split as the patch itself.
 template <Scheme S>
-void ExactFinish<S>::Search::finish_as_point(const PatchNode<S>& patch, const Vec3& point, const Box& hull) {
+void ExactFinish<S>::Search::finish_as_point(const PatchNode<S>& patch, const Patch<S>& irregular, const Box& hull) {
   if (hull.upper.z() < approach_.ray.near - error_) return;
-  const double distance = std::max(frame().project(point).z(), approach_.ray.near);
+  Parameter at = D::centre();
+  Patch<S> around = irregular;
+  for (int k = 0; k < D::corner_count; ++k) {
+    if (irregular.configuration->child(k).configuration != irregular.configuration) continue;
+    at = Parameter(D::corners[static_cast<std::size_t>(k)][0], D::corners[static_cast<std::size_t>(k)][1]);
+    // To where all of it is the corner's limit.
+    constexpr int most_levels = 64;
+    for (int level = 0; level < most_levels; ++level) {
+      const Box left = frame().hull(around.points);
+      if ((left.upper - left.lower).maxCoeff() <= 0.25 * error_) break;
+      around = around.child(k);
+    }
+    break;
+  }
+  const double distance = std::max(frame().project(around.points.front()).z(), approach_.ray.near);
   if (distance > approach_.far() - (approach_.far_is_hit() ? error_ : 0)) return;
-  take(patch, {D::centre(), distance, hull.upper.z() - hull.lower.z()}, patch.place().level());
+  take(patch, {at, distance, hull.upper.z() - hull.lower.z()}, patch.place().level());
 }
 
 }  // namespace shaolin
