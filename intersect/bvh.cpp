@@ -183,7 +183,7 @@ Bvh::Bvh(const std::vector<Box>& boxes) : space_(finite_bounds(boxes)) {
   nodes_.shrink_to_fit();
   bounds_ = builder.nodes.front().box;
   middle_ = bounds_.centre();
-  half_extents_ = (bounds_.upper - middle_).array() + 4 * unit_roundoff * bounds_.largest_coordinate();
+  half_extents_ = (bounds_.upper - middle_).array() + 0x1p-43 * bounds_.largest_coordinate();
 }
 
 }  // namespace shaolin

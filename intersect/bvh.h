@@ -20,12 +20,14 @@ class Bvh {
   /// quotient, and half of a picture's rays may miss. (False says nothing.)
   ///
   /// On either side of a plane through the line and an axis, by the products m_i d_j - m_j d_i, with m from the middle
-  /// of the bounds. Each product is off by 3 u, so their difference by less than 4 u |m| (|d_i| + |d_j|), which 2^-48
-  /// |m| on top of each half extent covers; where they might underflow nothing is said.
+  /// of the bounds. Each product is off by 3 u, so their difference by less than 4 u |m| (|d_i| + |d_j|), far below
+  /// what half extents have as room: a finish takes points for hits that are up to 320 u of the largest coordinate and
+  /// 128 u of the distance beside the ray (RayFrame::error(), twice), and at a corner of the bounds may find one there.
+  /// Where products might underflow nothing is said.
   bool is_passed_by(const Ray& ray) const {
     const Vec3 m = ray.origin - middle_, d = ray.direction.cwiseAbs();
     const double distance = m.cwiseAbs().maxCoeff();
-    const Vec3 half = half_extents_ + Vec3::Constant(0x1p-48 * distance);
+    const Vec3 half = half_extents_ + Vec3::Constant(0x1p-45 * distance);
     if (!(half.maxCoeff() * d.maxCoeff() > 0x1p-900)) return false;
     const auto is_beside = [&](Eigen::Index i, Eigen::Index j) {
       return std::abs(m[i] * ray.direction[j] - m[j] * ray.direction[i]) > half[i] * d[j] + half[j] * d[i];

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "../schemes/limit_surface.h"
+#include "corner_disk.h"
 
 namespace shaolin {
 
@@ -38,15 +39,10 @@ bool goes_through(const Contact& contact, const Derivatives& d, double cosine, c
   return cosine * cosine > 2 * depth * contact.error * curvature && std::abs(cosine) * extent > depth * contact.error;
 }
 
-/// True within 1e-6 of a corner of the face, where patches may be all of one curvature and size, or of any.
-bool is_at_corner(const SurfaceParameter& at) {
-  const auto is_end = [](double x) { return x < 1e-6 || x > 1 - 1e-6; };
-  return is_end(at.u) && is_end(at.v);
-}
-
 int sign(const Contact& contact, const Vec3& direction) {
   const double cosine = contact.hit.sample.normal.dot(direction);
   const auto& derivatives = contact.hit.sample.derivatives;
+  // (At a corner, patches may be all of one curvature and size, or of any.)
   const bool counts = derivatives && !is_at_corner(contact.hit.at)
                           ? goes_through(contact, *derivatives, cosine, direction)
                           : contact.is_proven || std::abs(cosine) > grazing;
@@ -59,69 +55,98 @@ bool share_vertex(const ControlMesh& mesh, int a, int b) {
   return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-/// The angle that a face takes around the ray at a contact: pi, but at a corner. There it is that between the sides, of
-/// which short chords will do, for the angles of all faces together are a multiple of 2 pi. (Tangents may be missing.)
-double angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3& direction) {
-  constexpr double chord = 1e-3;
-  if (!is_at_corner(at)) return std::numbers::pi;
-  const double u = std::round(at.u), v = std::round(at.v);
-  SurfaceParameter a{at.face, at.sub, u == 0 ? chord : 1 - chord, v}, b{at.face, at.sub, u, v == 0 ? chord : 1 - chord};
-  if (surface.triangular() && u == 1) b.u = 1 - chord;
-  if (surface.triangular() && v == 1) a.v = 1 - chord;
-  const auto corner = surface.evaluate({at.face, at.sub, u, v}), to_a = surface.evaluate(a), to_b = surface.evaluate(b);
-  if (!corner || !to_a || !to_b) return std::numbers::pi;
-  const auto seen = [&](const std::optional<LimitSample>& end) -> Vec3 {
-    const Vec3 side = end->position - corner->position;
-    return side - side.dot(direction) * direction;
-  };
-  return std::atan2(seen(to_a).cross(seen(to_b)).norm(), seen(to_a).dot(seen(to_b)));
-}
-
-/// Of contacts at one place, in the order of (face, sub).
-Sense sense_of(std::span<const Contact> contacts, const LimitSurface& surface, const Vec3& direction) {
-  std::vector<std::pair<const SurfaceParameter*, int>> faces;  // and the sign of each
-  // Some face has both.
-  bool is_mixed = false;
-  for (std::size_t i = 0; i < contacts.size();) {
-    const SurfaceParameter& at = contacts[i].hit.at;
-    int least = 1, most = -1;
-    for (; i < contacts.size() && contacts[i].hit.at.face == at.face && contacts[i].hit.at.sub == at.sub; ++i) {
-      least = std::min(least, sign(contacts[i], direction));
-      most = std::max(most, sign(contacts[i], direction));
+/// Contacts that are one crossing, in the order of (face, sub).
+class Place {
+ public:
+  Place(std::span<const Contact> contacts, const Vec3& direction) : contacts_(contacts) {
+    const auto face_of = [](const Contact& contact) { return std::tie(contact.hit.at.face, contact.hit.at.sub); };
+    for (std::size_t i = 0; i < contacts.size();) {
+      int least = 1, most = -1;
+      const std::size_t first = i;
+      for (; i < contacts.size() && face_of(contacts[i]) == face_of(contacts[first]); ++i) {
+        least = std::min(least, sign(contacts[i], direction));
+        most = std::max(most, sign(contacts[i], direction));
+      }
+      faces_.emplace_back(contacts[first].hit.at, std::clamp(least + most, -1, 1));
+      is_mixed_ |= least < 0 && most > 0;
     }
-    faces.emplace_back(&at, std::clamp(least + most, -1, 1));
-    is_mixed |= least < 0 && most > 0;
   }
-  const auto has_sign = [&](int wanted) {
-    return std::any_of(faces.begin(), faces.end(), [&](const auto& face) { return face.second == wanted; });
-  };
-  double turns = has_sign(1) - has_sign(-1);
-  // (At the tip of a spike a face has both, and another is met at its corner alone.)
-  if (is_mixed || (has_sign(1) && has_sign(-1))) {
-    turns = 0;
-    for (const auto& [at, sign] : faces) turns += sign * angle(*at, surface, direction);
-    turns = std::round(turns / (2 * std::numbers::pi));
+
+  /// The least uncertain contact; of several the nearest.
+  const Contact& surest() const {
+    const auto rank = [](const Contact& c) { return std::tie(c.uncertainty, c.distance, c.hit.at.face, c.hit.at.sub); };
+    return *std::min_element(contacts_.begin(), contacts_.end(),
+                             [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
   }
-  return turns > 0 ? Sense::leaves : turns < 0 ? Sense::enters : Sense::touches;
+
+  /// The closest hit where the contacts may be.
+  std::optional<Hit> closest(const ClosestBetween& closest_between) const {
+    double begin = std::numeric_limits<double>::infinity(), end = -begin;
+    for (const Contact& contact : contacts_) {
+      begin = std::min(begin, contact.distance - contact.uncertainty);
+      end = std::max(end, contact.distance + contact.uncertainty);
+    }
+    return closest_between(begin, end);
+  }
+
+  /// All contacts have one sign.
+  bool is_clear() const { return !is_mixed_ && has(1) + has(0) + has(-1) == 1; }
+
+  /// How often the faces turn around the ray, by the share that each takes.
+  int turns(const LimitSurface& surface, const Vec3& direction) const {
+    if (!is_mixed_ && !(has(1) && has(-1))) return has(1) - has(-1);
+    // (At the tip of a spike a face has both, and another is met at its corner alone.)
+    double sum = 0;
+    for (const auto& [at, sign] : faces_)
+      sum += sign * (is_at_corner(at) ? corner_angle(at, surface, direction) : std::numbers::pi);
+    return static_cast<int>(std::round(sum / (2 * std::numbers::pi)));
+  }
+
+  /// A disk that holds all contacts.
+  std::optional<CornerDisk> disk(bool triangular) const {
+    std::vector<SurfaceParameter> all;
+    for (const Contact& contact : contacts_) all.push_back(contact.hit.at);
+    return CornerDisk::around(all, triangular);
+  }
+  /// By how much coordinates across the ray may be off.
+  double error() const {
+    double largest = 0;
+    for (const Contact& contact : contacts_) largest = std::max(largest, contact.error);
+    return largest;
+  }
+
+ private:
+  bool has(int wanted) const {
+    return std::any_of(faces_.begin(), faces_.end(), [&](const auto& face) { return face.second == wanted; });
+  }
+
+  std::span<const Contact> contacts_;
+  std::vector<std::pair<SurfaceParameter, int>> faces_;  ///< a contact of each face, and the sum of signs, in [-1, 1]
+  bool is_mixed_ = false;                                ///< some face has both
+};
+
+/// How often a disk around the place is crossed in all, less what other places in it say; empty where that is unknown.
+std::optional<int> turns_within_disk(const Place& place, std::span<const Place> places, const LimitSurface& surface,
+                                     const Vec3& direction) {
+  constexpr double clearance = 16;  // errors
+  std::optional<CornerDisk> disk = place.disk(surface.triangular());
+  if (!disk) return {};
+  std::optional<int> turns =
+      disk->grow_and_wind(surface, place.surest().hit.sample.position, direction, clearance * place.error());
+  for (const Place& other : places) {
+    if (!turns || &other == &place || !disk->contains(other.surest().hit.at)) continue;
+    if (!other.is_clear()) return {};
+    *turns -= other.turns(surface, direction);
+  }
+  return turns;
 }
 
-/// Of contacts at one place: which is least uncertain, the nearest of several.
-const Contact& surest_of(std::span<const Contact> contacts) {
-  const auto rank = [](const Contact& c) {
-    return std::tie(c.uncertainty, c.distance, c.hit.at.face, c.hit.at.sub);
-  };
-  return *std::min_element(contacts.begin(), contacts.end(),
-                           [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
-}
-
-/// Of contacts at one place.
-std::optional<Hit> closest_of(std::span<const Contact> contacts, const ClosestBetween& closest) {
-  double begin = std::numeric_limits<double>::infinity(), end = -begin;
-  for (const Contact& contact : contacts) {
-    begin = std::min(begin, contact.distance - contact.uncertainty);
-    end = std::max(end, contact.distance + contact.uncertainty);
-  }
-  return closest(begin, end);
+/// At one of the ray's places.
+Sense sense_of(const Place& place, std::span<const Place> places, const LimitSurface& surface, const Vec3& direction) {
+  std::optional<int> turns;
+  if (!place.is_clear()) turns = turns_within_disk(place, places, surface, direction);
+  if (!turns) turns = place.turns(surface, direction);
+  return *turns > 0 ? Sense::leaves : *turns < 0 ? Sense::enters : Sense::touches;
 }
 
 }  // namespace
@@ -134,8 +159,8 @@ std::uint64_t count_uncertified(const std::vector<Crossing>& crossings) {
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
                                 const ClosestBetween& closest) {
   const ControlMesh& mesh = surface.control_mesh();
-  const auto place = [](const Contact& c) { return std::tie(c.distance, c.hit.at.face, c.hit.at.sub); };
-  std::sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) { return place(a) < place(b); });
+  const auto rank = [](const Contact& c) { return std::tie(c.distance, c.hit.at.face, c.hit.at.sub); };
+  std::sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
 
   // Which contacts are one: the first of each group stands for it.
   std::vector<std::size_t> group(contacts.size());
@@ -164,23 +189,27 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurfac
       *own = i;
   }
 
+  for (std::size_t i = 0; i < contacts.size(); ++i) group[i] = first_of(i);
   std::vector<std::size_t> order(contacts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (const std::size_t i : order) group[i] = first_of(i);
   const auto in_group = [&](std::size_t i) {
     return std::tuple(group[i], contacts[i].hit.at.face, contacts[i].hit.at.sub, i);
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return in_group(a) < in_group(b); });
+  std::vector<Contact> ordered;
+  for (const std::size_t i : order) ordered.push_back(contacts[i]);
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < order.size();) {
+    const std::size_t begin = i;
+    while (i < order.size() && group[order[i]] == group[order[begin]]) ++i;
+    places.emplace_back(std::span<const Contact>(ordered).subspan(begin, i - begin), direction);
+  }
 
   std::vector<Crossing> result;
-  std::vector<Contact> together;
-  for (std::size_t i = 0; i < order.size();) {
-    const std::size_t first = group[order[i]];
-    together.clear();
-    for (; i < order.size() && group[order[i]] == first; ++i) together.push_back(contacts[order[i]]);
-    const Contact& surest = surest_of(together);
-    if (const std::optional<Hit> hit = surest.is_coarse ? closest_of(together, closest) : surest.hit)
-      result.push_back({*hit, sense_of(together, surface, direction)});
+  for (const Place& place : places) {
+    const Contact& surest = place.surest();
+    if (const std::optional<Hit> hit = surest.is_coarse ? place.closest(closest) : surest.hit)
+      result.push_back({*hit, sense_of(place, places, surface, direction)});
   }
   // What stood in for a coarse contact may be farther than the next one.
   std::stable_sort(result.begin(), result.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace shaolin::stress {
 
@@ -20,6 +21,14 @@ Aim aim_at_places(const Subject& subject, const std::vector<SurfaceParameter>& p
     if ((other.position - sample.position).norm() <= 1e-9 * subject.diagonal()) aim.normals.push_back(other.normal);
   }
   return aim;
+}
+
+/// From a corner along both sides.
+std::pair<Parameter, Parameter> ways_from(const Parameter& corner, bool triangular) {
+  if (!triangular) return {{1 - 2 * corner.x(), 0}, {0, 1 - 2 * corner.y()}};
+  if (corner.x() == 1) return {{-1, 1}, {-1, 0}};
+  if (corner.y() == 1) return {{0, -1}, {1, -1}};
+  return {{1, 0}, {0, 1}};
 }
 
 double random_along(SampleRandom& random) {
@@ -51,7 +60,21 @@ bool Aim::is_crossed(const Vec3& direction) const {
 }
 
 Aim aim_at(const Subject& subject, const VertexSite& vertex, SampleRandom& random) {
-  return aim_at_places(subject, vertex, random.index(vertex.size()));
+  Aim aim = aim_at_places(subject, vertex, random.index(vertex.size()));
+  // At a sharp corner between smooth edges a face has a normal for each way that leads there.
+  constexpr double beside = 0x1p-20;
+  const bool triangular = subject.surface().triangular();
+  for (std::size_t i = 0; i < std::min<std::size_t>(16, vertex.size()); ++i) {
+    const SurfaceParameter& corner = vertex[i];
+    const auto [to_next, to_last] = ways_from(Parameter(corner.u, corner.v), triangular);
+    for (const double share : {0.05, 0.5, 0.95}) {
+      const Parameter at = Parameter(corner.u, corner.v) + beside * (share * to_next + (1 - share) * to_last);
+      const LimitSample near = subject.evaluate({corner.face, corner.sub, at.x(), at.y()});
+      // (A non-manifold mesh is cut.)
+      if ((near.position - aim.position).norm() <= 1e-4 * subject.diagonal()) aim.normals.push_back(near.normal);
+    }
+  }
+  return aim;
 }
 
 Aim aim_at(const Subject& subject, const EdgeSite& edge, SampleRandom& random) {

@@ -178,6 +178,12 @@ void Check::all(const Probe& probe, std::span<const Crossing> all) {
     if (sense_of(all[i]) * sense_of(all[i - 1]) == 1 && b.t - a.t <= 2 * slack(probe.ray, cosine))
       return fail_at(flattest, Fault::duplicate, probe.ray, "two at one place: " + text(a) + " and " + text(b));
   }
+  // Where the ray goes on along the surface it may leave it on either side, anywhere.
+  const auto goes_along = [&](const Crossing& c) {
+    const double far = 100 * slack(probe.ray, cosine_of(probe.ray, c.hit));
+    return runs_along(probe.ray, c.hit.t, c.hit.t + far) || runs_along(probe.ray, c.hit.t, c.hit.t - far);
+  };
+  if (std::any_of(all.begin(), all.end(), goes_along)) return leave_undecided();
   std::string senses = "entering and leaving do not cancel:";
   for (const Crossing& crossing : all)
     senses += ' ' + std::to_string(sense_of(crossing)) + " at t " + exact(crossing.hit.t) + " cosine " +
@@ -188,9 +194,16 @@ void Check::all(const Probe& probe, std::span<const Crossing> all) {
 void Check::target(const Probe& probe, std::span<const Crossing> all) {
   const Probe::Target& target = *probe.target;
   const double near = slack(probe.ray, target.cosine);
-  const auto count =
-      std::count_if(all.begin(), all.end(), [&](const Crossing& c) { return std::abs(c.hit.t - target.t) <= near; });
-  if (count == 0) fail_at(target.cosine, Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
+  const auto is_within = [&](const Crossing& c, double room) { return std::abs(c.hit.t - target.t) <= room; };
+  const auto count = std::count_if(all.begin(), all.end(), [&](const Crossing& c) { return is_within(c, near); });
+  // At a corner the face that reports it may be flatter than the one aimed at.
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const Crossing& c) {
+    return is_within(c, std::max(near, slack(probe.ray, cosine_of(probe.ray, c.hit))));
+  });
+  // Of a piece of the surface along the ray one hit stands for all.
+  const auto leads_there = [&](const Crossing& c) { return runs_along(probe.ray, c.hit.t, target.t); };
+  if (!is_there && std::any_of(all.begin(), all.end(), leads_there)) return leave_undecided();
+  if (!is_there) fail_at(target.cosine, Fault::lost, probe.ray, "not among all hits, expected t " + exact(target.t));
   if (count > 1 && target.cosine > steep_enough && target.is_crossed)
     fail(Fault::duplicate, probe.ray,
          std::to_string(count) + " hits at one place, expected one at t " + exact(target.t));

@@ -1,0 +1,129 @@
+#include "corner_disk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "../schemes/domain.h"
+#include "../schemes/limit_surface.h"
+
+namespace shaolin {
+
+namespace {
+
+/// The nearest corner of a face.
+Parameter corner_of(const SurfaceParameter& at, bool triangular) {
+  if (!triangular) return {std::round(at.u), std::round(at.v)};
+  const double w = 1 - at.u - at.v;
+  if (w >= at.u && w >= at.v) return {0, 0};
+  return at.u >= at.v ? Parameter(1, 0) : Parameter(0, 1);
+}
+
+double distance_from(const Parameter& corner, const SurfaceParameter& at) {
+  return std::max(std::abs(at.u - corner.x()), std::abs(at.v - corner.y()));
+}
+
+/// The places of the two sides of a corner so far from it: the side that leads to the next vertex, counter-clockwise,
+/// and the one that comes from the last.
+std::pair<Parameter, Parameter> sides_of(const Parameter& corner, double far, bool triangular) {
+  const double u = corner.x(), v = corner.y();
+  if (u == 0 && v == 0) return {{far, 0}, {0, far}};
+  if (triangular) {
+    if (u == 1) return {{1 - far, far}, {1 - far, 0}};
+    return {{0, 1 - far}, {far, 1 - far}};
+  }
+  if (v == 0) return {{1, far}, {1 - far, 0}};
+  if (u == 1) return {{1 - far, 1}, {1, 1 - far}};
+  return {{0, 1 - far}, {far, 1}};
+}
+
+/// From one point to another, without what lies along the ray.
+Vec3 seen(const Vec3& from, const Vec3& to, const Vec3& direction) {
+  const Vec3 way = to - from;
+  return way - way.dot(direction) * direction;
+}
+
+}  // namespace
+
+bool is_at_corner(const SurfaceParameter& at) {
+  const auto is_end = [](double x) { return x < 1e-6 || x > 1 - 1e-6; };
+  return is_end(at.u) && is_end(at.v);
+}
+
+double corner_angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3& direction) {
+  constexpr double chord = 1e-3;
+  const Parameter corner(std::round(at.u), std::round(at.v));
+  const auto [next, last] = sides_of(corner, chord, surface.triangular());
+  const auto point = [&](const Parameter& p) { return surface.evaluate({at.face, at.sub, p.x(), p.y()}); };
+  const auto middle = point(corner), to_next = point(next), to_last = point(last);
+  if (!middle || !to_next || !to_last) return std::numbers::pi;
+  const Vec3 a = seen(middle->position, to_next->position, direction);
+  const Vec3 b = seen(middle->position, to_last->position, direction);
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+std::optional<CornerDisk> CornerDisk::around(std::span<const SurfaceParameter> places, bool triangular) {
+  CornerDisk disk;
+  disk.triangular_ = triangular;
+  for (std::size_t i = 0; i < places.size();) {
+    const SurfaceParameter& first = places[i];
+    std::size_t end = i;
+    while (end < places.size() && places[end].face == first.face && places[end].sub == first.sub) ++end;
+    const auto of_face = places.subspan(i, end - i);
+    const auto from_nearest = [&](const SurfaceParameter& at) { return distance_from(corner_of(at, triangular), at); };
+    const SurfaceParameter& nearest = *std::min_element(
+        of_face.begin(), of_face.end(),
+        [&](const SurfaceParameter& a, const SurfaceParameter& b) { return from_nearest(a) < from_nearest(b); });
+    const Parameter corner = corner_of(nearest, triangular);
+    disk.corners_.push_back({first.face, first.sub, corner.x(), corner.y()});
+    for (const SurfaceParameter& at : of_face) disk.radius_ = std::max(disk.radius_, 2 * distance_from(corner, at));
+    i = end;
+  }
+  constexpr double largest = 0.5;
+  if (!(disk.radius_ <= largest)) return {};
+  return disk;
+}
+
+bool CornerDisk::contains(const SurfaceParameter& at) const {
+  return std::any_of(corners_.begin(), corners_.end(), [&](const SurfaceParameter& corner) {
+    return corner.face == at.face && corner.sub == at.sub && distance_from({corner.u, corner.v}, at) <= radius_;
+  });
+}
+
+std::optional<double> CornerDisk::wind(const LimitSurface& surface, const Vec3& through, const Vec3& direction,
+                                       double clearance) const {
+  constexpr int steps = 4;
+  double sum = 0;
+  for (const SurfaceParameter& corner : corners_) {
+    const auto [next, last] = sides_of({corner.u, corner.v}, radius_, triangular_);
+    Vec3 before = Vec3::Zero();
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
+      const Parameter p = (1 - share) * next + share * last;
+      const auto sample = surface.evaluate({corner.face, corner.sub, p.x(), p.y()});
+      if (!sample) return {};
+      const Vec3 here = seen(through, sample->position, direction);
+      if (!(here.norm() > clearance)) return {};
+      if (i > 0) sum += std::atan2(direction.dot(before.cross(here)), before.dot(here));
+      before = here;
+    }
+  }
+  return sum / (2 * std::numbers::pi);
+}
+
+std::optional<int> CornerDisk::grow_and_wind(const LimitSurface& surface, const Vec3& through, const Vec3& direction,
+                                             double clearance) {
+  constexpr double smallest = 0x1p-40, largest = 0.5, step = 8;
+  for (radius_ = std::max(radius_, smallest); radius_ <= largest; radius_ *= step)
+    if (const std::optional<double> turns = wind(surface, through, direction, clearance)) {
+      // The rim of a disk that misses a face, or lies at a boundary, has a gap.
+      constexpr double closed = 0.01;
+      const double whole = std::round(*turns);
+      if (std::abs(*turns - whole) > closed) return {};
+      return static_cast<int>(whole);
+    }
+  return {};
+}
+
+}  // namespace shaolin
