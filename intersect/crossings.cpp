@@ -72,11 +72,16 @@ class Place {
     }
   }
 
-  /// The least uncertain contact; of several the nearest.
+  /// The nearest contact, or the least uncertain of those that may be the same point; of several the nearest.
   const Contact& surest() const {
+    const auto is_nearer = [](const Contact& a, const Contact& b) { return a.distance < b.distance; };
+    const Contact* best = &*std::min_element(contacts_.begin(), contacts_.end(), is_nearer);
+    const double end = best->distance + best->uncertainty;
     const auto rank = [](const Contact& c) { return std::tie(c.uncertainty, c.distance, c.hit.at.face, c.hit.at.sub); };
-    return *std::min_element(contacts_.begin(), contacts_.end(),
-                             [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
+    if (best->is_coarse) return *best;
+    for (const Contact& contact : contacts_)
+      if (contact.distance - contact.uncertainty <= end && rank(contact) < rank(*best)) best = &contact;
+    return *best;
   }
 
   /// The closest hit where the contacts may be.

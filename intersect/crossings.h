@@ -52,10 +52,10 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// What a surface's patches report of one ray, as crossings in ascending order of t.
 ///
 /// A ray through an edge or a vertex is reported by all faces there, or by some. Contacts are one crossing if they are
-/// no farther apart than their uncertainties together and belong to one face, or to faces that share a vertex. The least
-/// uncertain contact stands for all (at a corner a ray may graze one face and cross another); of equal ones the nearest,
-/// of the lowest face and sub. If it is coarse (of a ray that runs along the surface), the closest hit does that lies
-/// where the contacts may be; without one there is no crossing.
+/// no farther apart than their uncertainties together and belong to one face, or to faces that share a vertex. The
+/// nearest stands for all, or the least uncertain that may be the same point (at a corner a ray may graze one face and
+/// cross another); of equal ones that of the lowest face and sub. If the nearest is coarse (of a ray that runs along the
+/// surface), the closest hit does that lies where the contacts may be; without one there is no crossing.
 ///
 /// Which way it goes is a matter of winding: around the ray, the faces at the point turn by 2 pi in all if the surface
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). Where faces

@@ -52,12 +52,14 @@ Subjects rotated(const StressModel& model, const QueriesOf& queries) {
 }
 
 /// The points of an instance round in the world's space, its rays meet it in its own: by an ulp of its shift a ray may
-/// miss an outline or a boundary. There only rays that cross the surface, inside of faces or of closed surfaces, cannot
-/// miss.
+/// miss an outline or a boundary, or pass a corner on another side than the edge it is aimed at. There only rays that
+/// cross the surface, inside of faces or of closed surfaces and not close to the end of an edge, cannot miss.
 Probe with_certain_target(const Subject& subject, const Aim& aim, Probe probe) {
   constexpr double steep = 1e-2, shared = 0.1;
   const Probe::Target& target = *probe.target;
-  const bool is_inside = !aim.is_shared || subject.is_closed();
+  const auto is_near_end = [](double x) { return (x > 0 && x < 1e-3) || (x < 1 && x > 1 - 1e-3); };
+  const bool is_near_corner = is_near_end(aim.at.u) || is_near_end(aim.at.v);
+  const bool is_inside = !aim.is_shared || (subject.is_closed() && !is_near_corner);
   // Far from the origin errors are large against pieces at irregular vertices, and contacts without number.
   probe.closest_only |= aim.is_shared && target.cosine < shared;
   if (subject.is_moved_instance() && !(target.is_crossed && target.cosine > steep && is_inside)) probe.target.reset();
