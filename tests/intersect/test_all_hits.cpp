@@ -212,6 +212,50 @@ TEST_CASE("A ray within a flat surface touches it once", "[intersect][all]") {
   }
 }
 
+TEST_CASE("A hit at an irregular corner is the corner", "[intersect][all]") {
+  // Its last patch, as small as rounding, was stood for by its middle, up to 1e-12 away. Found by `shaolin stress`.
+  const ControlMesh mesh = read_obj(std::string(std::getenv("SHAOLIN_DATA")) + "/cube_creases.obj");
+  const Scene scene(mesh, "catmark");
+  for (const Ray& ray : {Ray{{-2.1864084596415623, -1.8923596470498534, -1.9036301873121693},
+                             {1.7570608624094497, 1.3215770658770509, 1.3382686403783894}},
+                         Ray{{-7.6993016707498416, -5.466791729671642, -6.4215434967078835},
+                             {0.17253775937126326, 0.11504038398219682, 0.1396296230904201}}}) {
+    const std::optional<Hit> hit = scene.intersect(ray);
+    REQUIRE(hit);
+    CHECK((hit->sample.position - Vec3(-1, -1, -1)).norm() < 1e-14);
+    CHECK((scene.surface().evaluate(hit->at)->position - hit->sample.position).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("A ray across a pole at one hundredth enters and leaves there", "[intersect][all]") {
+  // Patches at a pole of valence 32 shrink slowly; the ray leaves again too near to be told from where it enters.
+  const ControlMesh mesh = read_obj(std::string(std::getenv("SHAOLIN_DATA")) + "/pole.obj");
+  const Scene scene(mesh, "catmark");
+  const Ray ray{{6.3661125787080222, 1.0426900049525933, 5.9712220268098442},
+                {-0.67485058655188523, -0.010255518443768388, -0.63298954226819037},
+                -infinity,
+                infinity};
+  int sum = 0;
+  for (const Crossing& crossing : scene.all_hits(ray)) sum += static_cast<int>(crossing.sense);
+  CHECK(sum == 0);
+}
+
+TEST_CASE("At a corner of the bounds one hit and all hits agree", "[intersect][all]") {
+  // A ray as far beside as points count as hits was turned away by the bounds before the closest hit was asked for.
+  const Scene scene(mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}), "bilinear");
+  int found = 0, missed = 0;
+  for (int beside = 0; beside < 1000; ++beside) {
+    const double off = beside * unit_roundoff;
+    const Ray ray{Vec3(1 + off, 1 + off, 0) - Vec3(0.3, 0.2, -1.5), {0.3, 0.2, -1.5}};
+    const bool is_hit = scene.intersect(ray).has_value();
+    ++(is_hit ? found : missed);
+    CHECK(scene.all_hits(ray).empty() != is_hit);
+    CHECK(scene.occluded(ray) == is_hit);
+  }
+  CHECK(found > 10);
+  CHECK(missed > 10);
+}
+
 TEST_CASE("Of rays along a surface the first of all hits is the closest", "[intersect][all][sweep]") {
   // A contact stood for a cell of up to 2^-6 of a patch, and came before the surface by 1e-4 of the way. Found by
   // `shaolin stress`.
