@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
-#include "../schemes/domain.h"
 #include "../schemes/limit_surface.h"
 
 namespace shaolin {
@@ -24,20 +22,6 @@ double distance_from(const Parameter& corner, const SurfaceParameter& at) {
   return std::max(std::abs(at.u - corner.x()), std::abs(at.v - corner.y()));
 }
 
-/// The places of the two sides of a corner so far from it: the side that leads to the next vertex, counter-clockwise,
-/// and the one that comes from the last.
-std::pair<Parameter, Parameter> sides_of(const Parameter& corner, double far, bool triangular) {
-  const double u = corner.x(), v = corner.y();
-  if (u == 0 && v == 0) return {{far, 0}, {0, far}};
-  if (triangular) {
-    if (u == 1) return {{1 - far, far}, {1 - far, 0}};
-    return {{0, 1 - far}, {far, 1 - far}};
-  }
-  if (v == 0) return {{1, far}, {1 - far, 0}};
-  if (u == 1) return {{1 - far, 1}, {1, 1 - far}};
-  return {{0, 1 - far}, {far, 1}};
-}
-
 /// From one point to another, without what lies along the ray.
 Vec3 seen(const Vec3& from, const Vec3& to, const Vec3& direction) {
   const Vec3 way = to - from;
@@ -51,10 +35,22 @@ bool is_at_corner(const SurfaceParameter& at) {
   return is_end(at.u) && is_end(at.v);
 }
 
+std::pair<Parameter, Parameter> sides_at(const Parameter& corner, double far, bool triangular) {
+  const double u = corner.x(), v = corner.y();
+  if (u == 0 && v == 0) return {{far, 0}, {0, far}};
+  if (triangular) {
+    if (u == 1) return {{1 - far, far}, {1 - far, 0}};
+    return {{0, 1 - far}, {far, 1 - far}};
+  }
+  if (v == 0) return {{1, far}, {1 - far, 0}};
+  if (u == 1) return {{1 - far, 1}, {1, 1 - far}};
+  return {{0, 1 - far}, {far, 1}};
+}
+
 double corner_angle(const SurfaceParameter& at, const LimitSurface& surface, const Vec3& direction) {
   constexpr double chord = 1e-3;
   const Parameter corner(std::round(at.u), std::round(at.v));
-  const auto [next, last] = sides_of(corner, chord, surface.triangular());
+  const auto [next, last] = sides_at(corner, chord, surface.triangular());
   const auto point = [&](const Parameter& p) { return surface.evaluate({at.face, at.sub, p.x(), p.y()}); };
   const auto middle = point(corner), to_next = point(next), to_last = point(last);
   if (!middle || !to_next || !to_last) return std::numbers::pi;
@@ -93,10 +89,11 @@ bool CornerDisk::contains(const SurfaceParameter& at) const {
 
 std::optional<double> CornerDisk::wind(const LimitSurface& surface, const Vec3& through, const Vec3& direction,
                                        double clearance) const {
+  // Of the rim seen from the vertex: a face takes half a turn at most, so that a step stays far below half a turn.
   constexpr int steps = 4;
   double sum = 0;
   for (const SurfaceParameter& corner : corners_) {
-    const auto [next, last] = sides_of({corner.u, corner.v}, radius_, triangular_);
+    const auto [next, last] = sides_at({corner.u, corner.v}, radius_, triangular_);
     Vec3 before = Vec3::Zero();
     for (int i = 0; i <= steps; ++i) {
       const double share = static_cast<double>(i) / steps;
@@ -114,10 +111,12 @@ std::optional<double> CornerDisk::wind(const LimitSurface& surface, const Vec3& 
 
 std::optional<int> CornerDisk::grow_and_wind(const LimitSurface& surface, const Vec3& through, const Vec3& direction,
                                              double clearance) {
+  // Beside 1 parameters have 53 digits: 13 of them are left for the smallest rim.
   constexpr double smallest = 0x1p-40, largest = 0.5, step = 8;
   for (radius_ = std::max(radius_, smallest); radius_ <= largest; radius_ *= step)
     if (const std::optional<double> turns = wind(surface, through, direction, clearance)) {
-      // The rim of a disk that misses a face, or lies at a boundary, has a gap.
+      // The rim of a disk that misses a face, or lies at a boundary, has a gap. (Sums of angles are good to 1e-15, and
+      // ends of neighbours' arcs are one point.)
       constexpr double closed = 0.01;
       const double whole = std::round(*turns);
       if (std::abs(*turns - whole) > closed) return {};

@@ -2,8 +2,10 @@
 /// The surface close to a vertex, as a ray sees it.
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "../schemes/domain.h"
 #include "../schemes/limit_sample.h"
 
 namespace shaolin {
@@ -12,6 +14,10 @@ class LimitSurface;
 
 /// True within 1e-6 of a corner of the face.
 bool is_at_corner(const SurfaceParameter& at);
+
+/// The places so far from a corner of a face on its two sides there: on the one that leads to the next vertex,
+/// counter-clockwise, and on the one that comes from the last. `far` is in parameters, in (0, 1].
+std::pair<Parameter, Parameter> sides_at(const Parameter& corner, double far, bool triangular);
 
 /// The angle that a face takes around the ray at one of its corners: that between the sides, of which short chords will
 /// do, for the angles of all faces together are a multiple of 2 pi. (Tangents may be missing.)

@@ -133,7 +133,8 @@ class Place {
 /// How often a disk around the place is crossed in all, less what other places in it say; empty where that is unknown.
 std::optional<int> turns_within_disk(const Place& place, std::span<const Place> places, const LimitSurface& surface,
                                      const Vec3& direction) {
-  constexpr double clearance = 16;  // errors
+  // Errors: of the contact on the ray two, of a point of the rim one, and the rim's steps are chords.
+  constexpr double clearance = 16;
   std::optional<CornerDisk> disk = place.disk(surface.triangular());
   if (!disk) return {};
   std::optional<int> turns =

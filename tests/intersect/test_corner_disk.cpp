@@ -1,8 +1,7 @@
 // Which way a ray passes a vertex, by the rim of a disk around it.
 #include "intersect/corner_disk.h"
-#include "intersect/scene.h"
+#include "schemes/limit_surface.h"
 #include "tests/catch.h"
-#include "tests/infinity.h"
 #include "tests/meshes.h"
 
 namespace shaolin {
@@ -48,9 +47,11 @@ TEST_CASE("The rim of a disk that misses a face is not closed", "[intersect][cor
   const Vec3 corner = surface->evaluate({0, 0, 0, 0})->position;
   std::vector<SurfaceParameter> corners = corners_at(*surface, corner);
   std::optional<CornerDisk> whole = CornerDisk::around(corners, false);
+  REQUIRE(whole);
   CHECK(whole->grow_and_wind(*surface, corner, -corner.normalized(), 1e-9) == -1);
   corners.pop_back();
   std::optional<CornerDisk> part = CornerDisk::around(corners, false);
+  REQUIRE(part);
   CHECK_FALSE(part->grow_and_wind(*surface, corner, -corner.normalized(), 1e-9));
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include "intersect/corner_disk.h"
 
 namespace shaolin::stress {
 
@@ -21,14 +22,6 @@ Aim aim_at_places(const Subject& subject, const std::vector<SurfaceParameter>& p
     if ((other.position - sample.position).norm() <= 1e-9 * subject.diagonal()) aim.normals.push_back(other.normal);
   }
   return aim;
-}
-
-/// From a corner along both sides.
-std::pair<Parameter, Parameter> ways_from(const Parameter& corner, bool triangular) {
-  if (!triangular) return {{1 - 2 * corner.x(), 0}, {0, 1 - 2 * corner.y()}};
-  if (corner.x() == 1) return {{-1, 1}, {-1, 0}};
-  if (corner.y() == 1) return {{0, -1}, {1, -1}};
-  return {{1, 0}, {0, 1}};
 }
 
 double random_along(SampleRandom& random) {
@@ -66,9 +59,9 @@ Aim aim_at(const Subject& subject, const VertexSite& vertex, SampleRandom& rando
   const bool triangular = subject.surface().triangular();
   for (std::size_t i = 0; i < std::min<std::size_t>(16, vertex.size()); ++i) {
     const SurfaceParameter& corner = vertex[i];
-    const auto [to_next, to_last] = ways_from(Parameter(corner.u, corner.v), triangular);
+    const auto [next, last] = sides_at(Parameter(corner.u, corner.v), beside, triangular);
     for (const double share : {0.05, 0.5, 0.95}) {
-      const Parameter at = Parameter(corner.u, corner.v) + beside * (share * to_next + (1 - share) * to_last);
+      const Parameter at = share * next + (1 - share) * last;
       const LimitSample near = subject.evaluate({corner.face, corner.sub, at.x(), at.y()});
       // (A non-manifold mesh is cut.)
       if ((near.position - aim.position).norm() <= 1e-4 * subject.diagonal()) aim.normals.push_back(near.normal);
