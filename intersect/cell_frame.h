@@ -30,10 +30,11 @@ class CellFrame {
 
   Vec3 operator()(const Vec3& point) const { return linear_ * point + offset_; }
 
-  /// A lower bound of n . x over a cell, up to error().
-  double low(const SurfaceCell& cell, const Vec3& n) const {
-    return cell.low(linear_.transpose() * n) + n.dot(offset_);
+  /// The point of a convex set around a cell that is least along n, up to error(), as SurfaceCell::supporting_point().
+  Vec3 supporting_point(const SurfaceCell& cell, const Vec3& n) const {
+    return (*this)(cell.supporting_point(linear_.transpose() * n));
   }
+  double low(const SurfaceCell& cell, const Vec3& n) const { return n.dot(supporting_point(cell, n)); }
   /// A lower bound of |map x| over a cell relative to a point, as SurfaceCell::least_length().
   double least_length(const SurfaceCell& cell, const Eigen::Matrix3d& map, const Vec3& point,
                       const Parameter& at) const {

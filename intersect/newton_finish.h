@@ -428,7 +428,7 @@ template <class Bezier>
 void NewtonFinish<Bezier>::split(const Net& cell, const Parameter& origin, const Parameter& scale) {
   Eigen::Vector2d ab = slope(cell);
   if (ab.cwiseAbs().sum() > steepest) ab.setZero();
-  if constexpr (requires(const Bezier& patch) { patch.halves(0); }) {
+  if constexpr (Bezier::DomainType::corner_count == 4) {
     if (const int axis = long_axis(cell, scale); axis >= 0) {
       const auto halves = cell.template bezier<Bezier>().halves(axis);
       const std::array<Net, 2> children{Net(halves[0]), Net(halves[1])};

@@ -5,10 +5,12 @@
 
 namespace shaolin {
 
-/// Branch and bound over pairs of cells, one of each surface, the nearest first. A pair is dropped if a plane separates
-/// the two, to within rounding as for shapes (shape_probe.h): across the way between them, along the one's tangent
-/// plane or the other's, along a side of a box. Otherwise Newton's steps look for a common point: three equations for
-/// four parameters, solved by the shortest step. What neither settles is split, the larger of the two.
+/// Branch and bound over pairs of cells, one of each surface, those with the nearest places first. A pair is dropped if
+/// a plane separates the hulls of the two, to within rounding as for shapes (shape_probe.h); where edges cross at a
+/// distance only planes close to both do, which separation.h finds. Otherwise steps of Newton's kind look for a common
+/// point: three equations for four parameters, solved by the shortest step, or by the one that leaves least, and inside
+/// of both cells, so that edges and corners that just touch are found, too. What neither settles is split, the larger
+/// of the two.
 class PairSearch {
  public:
   /// A place of each surface; they are one point, to rounding.
@@ -30,8 +32,8 @@ class PairSearch {
 
   /// The rank of a pair that may have a common point. Sets found_ if it is found.
   std::optional<double> look(const Pair& pair);
+  /// True if a plane separates the two; one across the way from b to a is tried first.
   bool is_apart(const Pair& pair, const Vec3& way) const;
-  bool is_apart_along_sides(const Pair& pair) const;
   /// Steps towards each other; true once the two are one point.
   bool approach(const Pair& pair, FramedSample& a, FramedSample& b) const;
 

@@ -107,11 +107,11 @@ auto ShapeProbe::operator()(const SurfaceCell& cell, double margin) const -> Ans
   std::optional<FramedSample> place = frame_.sample(cell, centre);
   Gap now = gap(place ? place->position : frame_(cell.box().centre()));
   if (is_apart(cell, now.way, margin) || is_apart_along_sides(cell, margin)) return {Verdict::apart, now.distance, {}};
-  if (!place) {
+  if (!place || !place->derivatives) {
     for (const Vec3& side : frame_.sides())
       if (is_apart(cell, side, margin) || is_apart(cell, -side, margin)) return {Verdict::apart, now.distance, {}};
-    return {Verdict::open, now.distance, {}};
   }
+  if (!place) return {Verdict::open, now.distance, {}};
   const double near = 2 * frame_.error();
   if (now.distance <= near || frame_.extent(cell) <= frame_.error()) return {Verdict::met, now.distance, place};
   if (!place->derivatives) return {Verdict::open, now.distance, place};

@@ -1,5 +1,6 @@
 #pragma once
 /// The pieces of a limit surface as searches with shapes see them, whatever the scheme.
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,6 +19,30 @@ struct CellSample {
   std::optional<Derivatives> derivatives;
 };
 
+/// Part of a patch's domain: its parameters p are the domain's at origin + axes * p. Exact, as SubDomain, for entries
+/// are differences of parameters that halving makes.
+struct CellDomain {
+  Parameter origin = Parameter::Zero();
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
+
+  CellDomain() = default;
+  CellDomain(const SubDomain& part) : origin(part.origin), axes(part.scale.asDiagonal()) {}
+  CellDomain(const Parameter& from, const Parameter& to_u, const Parameter& to_v) : origin(from) {
+    axes << to_u - from, to_v - from;
+  }
+
+  Parameter operator()(const Parameter& at) const { return origin + axes * at; }
+  /// A part of this part.
+  CellDomain operator()(const CellDomain& part) const {
+    CellDomain result;
+    result.origin = (*this)(part.origin);
+    result.axes = axes * part.axes;
+    return result;
+  }
+  /// Halvings along the coordinate that was halved most often.
+  int depth() const { return -std::ilogb(axes.cwiseAbs().rowwise().maxCoeff().minCoeff()); }
+};
+
 /// A part of an object's surface, in the object's space: a node of the hierarchy over its faces, a face, a patch, or a
 /// piece of one. A cell is known by bounds; once it is a patch, by samples, too; and by the smaller cells that it
 /// consists of, made when they are first asked for. Of one query: not thread-safe.
@@ -27,7 +52,7 @@ class SurfaceCell {
   struct Place {
     int face = -1;  ///< -1 for a node of the hierarchy, which may hold several
     int sub = 0;
-    SubDomain domain;     ///< of the face's
+    CellDomain domain;    ///< of the face's
     int level = 0;        ///< of refinement
     double rounding = 0;  ///< what positions and bounds are good to
   };
@@ -40,11 +65,10 @@ class SurfaceCell {
   const Box& box() const { return box_; }
   const Place& place() const { return place_; }
 
-  /// A lower bound of n . x over the cell, up to the cell's rounding. For a patch it exceeds the box's, and falls short
-  /// of the least value, for an n across the surface, by no more than the square of the cell's size.
-  virtual double low(const Vec3& n) const {
-    return n.dot(box_.centre()) - 0.5 * n.cwiseAbs().dot(box_.upper - box_.lower);
-  }
+  /// The point of a convex set around the cell that is least along n, up to the cell's rounding. For a patch the set is
+  /// the box or part of it; for an n across the surface its point falls short of the cell's by no more than the square
+  /// of the cell's size.
+  virtual Vec3 supporting_point(const Vec3& n) const { return (n.array() > 0).select(box_.lower, box_.upper); }
 
   /// A lower bound of |map x + offset| over the cell of a patch, up to rounding: that of a function of second degree
   /// which touches the square at a place of the cell and is nowhere above it. Tight if the length is least there. 0

@@ -36,17 +36,34 @@ struct CellSource {
       : guard(budget), hierarchy(bvh), totals(tree_totals), leaf(std::move(leaves)), start(std::move(starts)) {}
 };
 
+/// The domain of half k of a patch, as the patch's halves().
+template <class Bezier>
+CellDomain half_domain(int side, int k) {
+  if constexpr (Bezier::DomainType::corner_count == 4) {
+    SubDomain half;
+    half.scale[side] = 0.5;
+    half.origin[side] = 0.5 * k;
+    return half;
+  } else {
+    std::array<Parameter, 3> at{Parameter{0, 0}, Parameter{1, 0}, Parameter{0, 1}};
+    const auto from = static_cast<std::size_t>(side), to = (from + 1) % 3;
+    at[k == 0 ? to : from] = 0.5 * (at[from] + at[to]);
+    return {at[0], at[1], at[2]};
+  }
+}
+
 /// A Bezier patch, or a piece of one: its parts are made for this query.
 template <class Bezier>
 class PolynomialCell final : public SurfaceCell {
  public:
   PolynomialCell(const Net& net, const Place& place) : SurfaceCell(hull_of(net), place), net_(net) {}
 
-  double low(const Vec3& n) const override {
+  Vec3 supporting_point(const Vec3& n) const override {
     std::array<double, 16> plane, along;
     combine(n.x(), net_.x, n.y(), net_.y, plane);
     combine(1, plane, n.z(), net_.z, along);
-    return Range(along).low;
+    const auto i = static_cast<std::size_t>(std::min_element(along.begin(), along.end()) - along.begin());
+    return {net_.x[i], net_.y[i], net_.z[i]};
   }
   double least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const override;
   std::optional<CellSample> sample(const Parameter& at) const override {
@@ -57,7 +74,7 @@ class PolynomialCell final : public SurfaceCell {
 
  private:
   Cells split() const override;
-  std::unique_ptr<SurfaceCell> part(const Bezier& piece, const SubDomain& domain) const {
+  std::unique_ptr<SurfaceCell> part(const Bezier& piece, const CellDomain& domain) const {
     Place at = place();
     at.domain = at.domain(domain);
     at.level += at.domain.depth() - place().domain.depth();
@@ -67,31 +84,24 @@ class PolynomialCell final : public SurfaceCell {
   Net net_;
 };
 
-/// A triangle into quarters. A rectangle into halves, across the longer of its sides: one that is collapsed to a curve
-/// would else have as many cells across the curve as along it, all at one place.
+/// Into halves, across the longest side: one that is collapsed to a curve, as beside a fold, would else have as many
+/// cells across the curve as along it, all at one place.
 template <class Bezier>
 auto PolynomialCell<Bezier>::split() const -> Cells {
-  Cells parts;
   const Bezier patch = net_.bezier<Bezier>();
-  if constexpr (Bezier::DomainType::corner_count == 3) {
-    const auto quarters = patch.split();
-    for (std::size_t k = 0; k < quarters.size(); ++k)
-      parts.push_back(part(quarters[k], child_domain<FaceKind::triangle>(static_cast<int>(k))));
-  } else {
-    const auto longest = [&](const auto& pairs) {
-      double most = 0;
-      for (const auto& [from, to] : pairs) most = std::max(most, (patch.b[to] - patch.b[from]).squaredNorm());
-      return most;
-    };
-    const int axis = longest(Bezier::u_pairs) >= longest(Bezier::v_pairs) ? 0 : 1;
-    const auto halves = patch.halves(axis);
-    SubDomain half;
-    half.scale[axis] = 0.5;
-    for (std::size_t k = 0; k < halves.size(); ++k) {
-      half.origin[axis] = 0.5 * static_cast<double>(k);
-      parts.push_back(part(halves[k], half));
-    }
+  double most = -1;
+  std::size_t longest = 0;
+  for (std::size_t side = 0; side < Bezier::side_pairs.size(); ++side) {
+    double length = 0;
+    for (const auto& [from, to] : Bezier::side_pairs[side])
+      length = std::max(length, (patch.b[to] - patch.b[from]).squaredNorm());
+    if (length > most) longest = side;
+    most = std::max(most, length);
   }
+  const auto halves = patch.halves(static_cast<int>(longest));
+  Cells parts;
+  for (std::size_t k = 0; k < halves.size(); ++k)
+    parts.push_back(part(halves[k], half_domain<Bezier>(static_cast<int>(longest), static_cast<int>(k))));
   return parts;
 }
 
@@ -117,12 +127,12 @@ class RefinedCell final : public SurfaceCell {
   RefinedCell(Patch<S> patch, const Place& place)
       : SurfaceCell(limit_bound(patch), place), patch_(std::move(patch)), flat_(flat_part(patch_)) {}
 
-  double low(const Vec3& n) const override {
-    if (!flat_) return SurfaceCell::low(n);
-    const Box& rest = flat_->remainder;
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [u, v] : D::corners) least = std::min(least, n.dot(flat_->at({u, v})));
-    return least + n.dot(rest.centre()) - 0.5 * n.cwiseAbs().dot(rest.upper - rest.lower);
+  Vec3 supporting_point(const Vec3& n) const override {
+    if (!flat_) return SurfaceCell::supporting_point(n);
+    Vec3 corner = flat_->corner;
+    for (const auto& [u, v] : D::corners)
+      if (const Vec3 other = flat_->at({u, v}); n.dot(other) < n.dot(corner)) corner = other;
+    return corner + (n.array() > 0).select(flat_->remainder.lower, flat_->remainder.upper).matrix();
   }
   /// Only of the centre, which one split makes a corner. A finer place would take as many splits as it has bits.
   std::optional<CellSample> sample(const Parameter&) const override {
@@ -155,23 +165,19 @@ class PatchCell final : public SurfaceCell {
   using D = Domain<S::face_kind>;
 
  public:
-  PatchCell(const CellSource<S>& source, const IrregularPatch<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny,
+  PatchCell(const CellSource<S>& source, const IrregularPatch<S>& patch, typename Parts<S>::Slot& slot,
             const Place& place)
-      : SurfaceCell(hull_bound(patch.patch()), place), source_(source), patch_(patch), slot_(slot), is_tiny_(is_tiny) {}
+      : SurfaceCell(hull_bound(patch.patch()), place), source_(source), patch_(patch), slot_(slot) {}
 
   /// Of the hull of the points, expanded.
-  double low(const Vec3& n) const override {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& point : patch_.patch().points) {
-      const double along = n.dot(point);
-      low = std::min(low, along);
-      high = std::max(high, along);
-    }
-    if (const double expansion = patch_.patch().configuration->hull_expansion(); expansion > 0)
-      low -= expansion * (high - low);
-    return std::max(low, SurfaceCell::low(n));
+  Vec3 supporting_point(const Vec3& n) const override {
+    const auto along = [&](const Vec3& a, const Vec3& b) { return n.dot(a) < n.dot(b); };
+    const std::vector<Vec3>& points = patch_.patch().points;
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(), along);
+    const Vec3 of_hull = *low + patch_.patch().configuration->hull_expansion() * (*low - *high);
+    return std::max(of_hull, SurfaceCell::supporting_point(n), along);
   }
-  /// Around irregular corners patches shrink without end: of one that is tiny, the corner itself.
+  /// The corner of the face that the patch is at: around irregular ones patches shrink without end.
   std::optional<CellSample> sample(const Parameter&) const override;
   bool is_triangular() const override { return D::corner_count == 3; }
 
@@ -181,7 +187,6 @@ class PatchCell final : public SurfaceCell {
   const CellSource<S>& source_;
   const IrregularPatch<S>& patch_;
   typename Parts<S>::Slot& slot_;
-  bool is_tiny_;
 };
 
 /// A node of an object's hierarchy, or a face that it leads to.
@@ -231,12 +236,11 @@ std::unique_ptr<SurfaceCell> make_cell(const CellSource<S>& source, int face, in
   }
   const auto& irregular = static_cast<const IrregularPatch<S>&>(patch);
   if (patch.is_leaf()) return std::make_unique<RefinedCell<S>>(irregular.patch(), place(patch.place()));
-  return std::make_unique<PatchCell<S>>(source, irregular, *part.parts, part.is_tiny, place(patch.place()));
+  return std::make_unique<PatchCell<S>>(source, irregular, *part.parts, place(patch.place()));
 }
 
 template <Scheme S>
 std::optional<CellSample> PatchCell<S>::sample(const Parameter&) const {
-  if (!is_tiny_) return {};
   const Parameter corner = D::nearest(place().domain(D::centre())).array().round();
   for (const auto& [u, v] : D::corners)
     if (corner == place().domain({u, v}))

@@ -114,6 +114,9 @@ struct BezierQuad {
   static constexpr std::array<Pair, 12> v_pairs{
       {{0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 8}, {5, 9}, {6, 10}, {7, 11}, {8, 12}, {9, 13}, {10, 14}, {11, 15}}};
 
+  /// By the axes of halves().
+  static constexpr std::array<std::array<Pair, 12>, 2> side_pairs{u_pairs, v_pairs};
+
   /// Derivatives of the mean plane, from the corners; per coordinate or for points.
   template <class Value>
   static Value mean_du(const std::array<Value, 16>& p) {

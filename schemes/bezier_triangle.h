@@ -69,6 +69,11 @@ struct BezierTriangle {
     return {corner_child(0), corner_child(1), corner_child(2), middle_child()};
   }
 
+  /// The halves on both sides of the line from the middle of a side (0 from the first corner to the second, and so on)
+  /// to the opposite corner; the one at the side's start first. Each keeps two of the corners in their places, and has
+  /// the middle in the third.
+  std::array<BezierTriangle, 2> halves(int side) const;
+
   /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
   /// derivative, and of the v derivative, whose hulls hold the derivatives.
   using Pair = std::array<std::uint8_t, 2>;
@@ -76,6 +81,10 @@ struct BezierTriangle {
       {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {5, 6}, {6, 7}, {7, 8}, {9, 10}, {10, 11}, {12, 13}}};
   static constexpr std::array<Pair, 10> v_pairs{
       {{0, 5}, {1, 6}, {2, 7}, {3, 8}, {5, 9}, {6, 10}, {7, 11}, {9, 12}, {10, 13}, {12, 14}}};
+
+  /// By the sides of halves(). Across from the first corner, those of v less those of u.
+  static constexpr std::array<std::array<Pair, 10>, 3> side_pairs{
+      u_pairs, {{{1, 5}, {2, 6}, {3, 7}, {4, 8}, {6, 9}, {7, 10}, {8, 11}, {10, 12}, {11, 13}, {13, 14}}}, v_pairs};
 
   /// Derivatives of the chord triangle; per coordinate or for points.
   template <class Value, std::size_t count>
@@ -177,6 +186,22 @@ inline BezierTriangle BezierTriangle::middle_child() const {
     if (e0 < degree) after0 = midpoint_step(after0, degree - e0, 0);
   }
   return child;
+}
+
+/// Rows along the side are curves, which de Casteljau's midpoints halve.
+inline std::array<BezierTriangle, 2> BezierTriangle::halves(int side) const {
+  std::array<BezierTriangle, 2> half;
+  for (int j = 0; j <= degree; ++j) {
+    std::array<Vec3, degree + 1> row;
+    const auto at = [&](int i) -> Vec3& { return row[static_cast<std::size_t>(i)]; };
+    for (int i = 0; i + j <= degree; ++i) at(i) = b[rotated(side, i, j)];
+    for (int n = degree - j; n >= 0; --n) {
+      half[0].b[rotated(side, degree - j - n, j)] = at(0);
+      half[1].b[rotated(side, n, j)] = at(n);
+      for (int i = 0; i < n; ++i) at(i) = 0.5 * (at(i) + at(i + 1));
+    }
+  }
+  return half;
 }
 
 /// With the cubic Bernstein polynomials c on the triangle, 10 of them: the weights of the derivatives are 4 (c(i-1, j)

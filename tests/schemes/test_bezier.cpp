@@ -100,6 +100,29 @@ TEMPLATE_TEST_CASE("Splitting agrees with evaluation", "[schemes][bezier]", Bezi
   }
 }
 
+TEST_CASE("Halves of a triangle agree with evaluation", "[schemes][bezier]") {
+  Random random(5);
+  for (int round = 0; round < 200; ++round) {
+    const BezierTriangle patch = random_patch<BezierTriangle>(random);
+    for (int side = 0; side < 3; ++side) {
+      const auto halves = patch.halves(side);
+      for (const std::size_t k : {0u, 1u}) {
+        // The corners of the half: that at the side's other end moves to the side's middle.
+        std::array<Parameter, 3> corner{Parameter{0, 0}, Parameter{1, 0}, Parameter{0, 1}};
+        const auto start = static_cast<std::size_t>(side), end = (start + 1) % 3;
+        corner[k == 0 ? end : start] = 0.5 * (corner[start] + corner[end]);
+        const Parameter at = random_parameter<BezierTriangle::DomainType>(random);
+        const Parameter along_u = corner[1] - corner[0], along_v = corner[2] - corner[0];
+        const Parameter in_parent = corner[0] + at.x() * along_u + at.y() * along_v;
+        REQUIRE((halves[k].position(at) - patch.position(in_parent)).norm() < 2e-15);
+        const Derivatives a = halves[k].derivatives(at), b = patch.derivatives(in_parent);
+        REQUIRE((a.du - (along_u.x() * b.du + along_u.y() * b.dv)).norm() < 1e-14);
+        REQUIRE((a.dv - (along_v.x() * b.du + along_v.y() * b.dv)).norm() < 1e-14);
+      }
+    }
+  }
+}
+
 TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier][domain]", BezierQuad, BezierTriangle) {
   using D = typename TestType::DomainType;
   Random random(3);
