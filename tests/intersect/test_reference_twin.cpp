@@ -135,7 +135,9 @@ void compare(const Model& model, int levels, int count, double most_undecided) {
       with_scheme(model.scheme, [&]<Scheme S>(const S& scheme) { return tessellate(model.mesh, scheme, levels); });
   const Scene scene(model.mesh, model.scheme);
   int undecided = 0, hits = 0;
-  for (Ray ray : random_rays(scene.bounds(), count, 41)) {
+  Box around;  // aims depend on the model alone, not on how closely it is bounded
+  for (const Vec3& point : model.mesh.positions) around.add(point);
+  for (Ray ray : random_rays(around, count, 41)) {
     ray.direction.normalize();
     const TwinVerdict verdict(twin, ray);
     const auto hit = scene.intersect(ray);
