@@ -87,7 +87,7 @@ class ExactFinish {
     bool is_certified() const {
       const double largest = radius.maxCoeff();
       if (!(largest < 1) || !patch->is_polynomial()) return false;
-      return holds_rectangle(at, radius) || (largest <= smooth_radius && polynomial_of(*patch).is_smooth_across());
+      return D::contains(at, radius) || (largest <= smooth_radius && polynomial_of(*patch).is_smooth_across());
     }
   };
 
@@ -130,6 +130,7 @@ class ExactFinish {
 
     template <Query query>
     void run() {
+      any_ = query == Query::any;
       if (start_.is_leaf())
         finish(start_.patch(), 0);
       else
@@ -189,6 +190,7 @@ class ExactFinish {
     TreeTotals& totals_;
     std::optional<RayFrame> frame_;
     double error_ = 0;
+    bool any_ = false;
     int cells_ = 0;  ///< that solvers have looked at, where all hits are asked for
   };
 
@@ -198,11 +200,6 @@ class ExactFinish {
   /// Across a side where second derivatives agree, a patch and its neighbour's polynomial differ by the third power of
   /// the distance: at this one, by less than rounding.
   static constexpr double smooth_radius = 0x1p-20;
-  static bool holds_rectangle(const Parameter& centre, const Parameter& half) {
-    const Parameter other(half.x(), -half.y());
-    return D::contains(centre - half) && D::contains(centre + half) && D::contains(centre - other) &&
-           D::contains(centre + other);
-  }
   SHAOLIN_FLATTEN static Jet jet(const Found& found) {
     return shaolin::jet(polynomial_of(*found.patch).window(), found.at);
   }
@@ -302,6 +299,7 @@ void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
   if (!project(polynomial_of(patch).window(), number, cell)) return;
   NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
                                   approach_.counters, all ? cells_ : 0);
+  if (any_) solver.settle_for_any();
   solve(solver, cell, [&](PatchHit hit) {
     const SubDomain piece = Pieces<Polynomial>::domain(number);
     hit.at = piece(hit.at);

@@ -56,6 +56,8 @@ class NewtonFinish {
     return found_;
   }
   const PatchHit& hit() const { return best_; }
+  /// From now on a hit is found once it is proven to be there: where it is, is known to its radius only.
+  void settle_for_any() { any_ = true; }
   /// Looked at so far, those of pieces before included.
   int cells() const { return cells_; }
 
@@ -107,6 +109,8 @@ class NewtonFinish {
   bool meets_as_a_whole(const Net& cell, const Parameter& origin, const Parameter& scale);
   Verdict newton(const Net& cell, const Matrix& flattening, const Contraction& contraction, Parameter at,
                  PatchHit& hit);
+  bool holds_zero(const Net& cell, const Matrix& flattening, const Contraction& contraction, const Eigen::Vector2d& g,
+                  PatchHit& hit) const;
   Parameter zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
                         const Matrix& flattening, const Contraction& contraction) const;
   /// Of a hit in a cell's parameters.
@@ -122,6 +126,7 @@ class NewtonFinish {
   bool has_hit_;  ///< best_.distance is that of a hit
   RayCounters& counters_;
   PatchHit best_;
+  bool any_ = false;
   std::vector<PatchHit>* all_ = nullptr;  ///< where hits go if all are asked for
   std::size_t own_first_ = 0;             ///< of them, the first of this patch
   bool found_ = false;
@@ -194,9 +199,10 @@ SHAOLIN_FLATTEN void NewtonFinish<Bezier>::visit(const Net& cell, const Paramete
   const Contraction contracts = contraction<Bezier>(flat_x, flat_y);
   if (contracts.share < 0.95 && error_ * flattening.norm() < 0.25) {
     PatchHit hit;
-    const Parameter start =
-        D::nearest(D::centre() - Parameter(dot(flat_x, centre_weights), dot(flat_y, centre_weights)));
-    const Verdict verdict = newton(cell, flattening, contracts, start, hit);
+    const Eigen::Vector2d g(dot(flat_x, centre_weights), dot(flat_y, centre_weights));
+    if (any_ && z.low >= near_ && z.high <= best_.distance && holds_zero(cell, flattening, contracts, g, hit))
+      return accept(hit, origin, scale);
+    const Verdict verdict = newton(cell, flattening, contracts, D::nearest(D::centre() - g), hit);
     if (verdict == Verdict::found) accept(hit, origin, scale);
     if (verdict != Verdict::unknown) return;
   }
@@ -365,6 +371,33 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
     at = next;
   }
   return is_found ? Verdict::found : Verdict::unknown;
+}
+
+/// True if the cell is proven to hold a zero, and the exact map one alone, by the contraction principle at one place:
+/// with slope q and error s, as zero_radius() derives them, T of the exact map takes all within r = (|g| + s) / (1 - q)
+/// of the place to within q r + |g| + s = r of it. So a ray that needs to know no more needs one value of the map, or
+/// none: g at the cell's centre is given. The hit is the place, give or take r; its distance is the centre's.
+template <class Bezier>
+bool NewtonFinish<Bezier>::holds_zero(const Net& cell, const Matrix& flattening, const Contraction& contraction,
+                                      const Eigen::Vector2d& g, PatchHit& hit) const {
+  const double s = contraction.norm(error_ * flattening.cwiseAbs().rowwise().sum());
+  const double q = contraction.share + 8 * contraction.weights.sum() * s;
+  if (!(q < 1)) return false;
+  const auto is_near = [&](const Parameter& at, const Eigen::Vector2d& value) {
+    const Parameter radius = (contraction.norm(value) + s) / (1 - q) * (1 + 1e-10) * contraction.weights;
+    if (!D::contains(at, radius)) return false;
+    hit = {at, dot(cell.z, centre_weights), 0, true, radius};
+    return true;
+  };
+  if (is_near(D::centre(), g)) return true;
+  const Parameter next = D::centre() - g;
+  if (!D::contains(next)) return false;
+  ++counters_.newton_steps;
+  const NetEvaluation<Bezier> evaluation(next);
+  std::array<double, 4> at_x, at_y;  // value, du, dv
+  evaluation(cell.x).store(at_x.data());
+  evaluation(cell.y).store(at_y.data());
+  return is_near(next, flattening * Eigen::Vector2d(at_x[0], at_y[0]));
 }
 
 /// How far at most the zero of the exact map F lies from at + step, by the contraction principle; infinite if that

@@ -35,6 +35,8 @@ struct Domain<FaceKind::quad> {
   static bool is_outside(const Parameter& p, const Parameter& half) {
     return ((p + half).array() < 0).any() || ((p - half).array() > 1).any();
   }
+  /// True if the domain holds all of a rectangle.
+  static bool contains(const Parameter& p, const Parameter& half) { return contains(p - half) && contains(p + half); }
 
   /// d(child parameter) / d(parent parameter): parent = origin(child) + scale(child) * child parameter.
   static double scale(int) { return 0.5; }
@@ -69,6 +71,9 @@ struct Domain<FaceKind::triangle> {
   }
   static bool is_outside(const Parameter& p, const Parameter& half) {
     return ((p + half).array() < 0).any() || (p - half).sum() > 1;
+  }
+  static bool contains(const Parameter& p, const Parameter& half) {
+    return ((p - half).array() >= 0).all() && (p + half).sum() <= 1;
   }
 
   static double scale(int child) { return child == 3 ? -0.5 : 0.5; }

@@ -74,7 +74,7 @@ ControlMesh with_random_creases(ControlMesh mesh, Random& random) {
 
 }  // namespace
 
-TEST_CASE("Boxes of faces hold the limit", "[intersect][bounds]") {
+TEST_CASE("Boxes of faces hold the limit", "[intersect][bounds][sweep]") {
   int faces = 0;
   for (const Model& model : all_models()) {
     if (model.mesh.face_count() > 4000) continue;
@@ -86,7 +86,7 @@ TEST_CASE("Boxes of faces hold the limit", "[intersect][bounds]") {
   CHECK(faces > 1000);
 }
 
-TEST_CASE("Boxes of faces hold the limit whatever is sharp", "[intersect][bounds]") {
+TEST_CASE("Boxes of faces hold the limit whatever is sharp", "[intersect][bounds][sweep]") {
   Random random(31);
   for (int round = 0; round < 20; ++round) {
     for (const std::string scheme : {"catmark", "loop"}) {

@@ -345,4 +345,50 @@ TEMPLATE_TEST_CASE("The finish agrees with Newton's method from everywhere", "[i
   CHECK(several > count / 30);
 }
 
+TEMPLATE_TEST_CASE("A ray that settles for any hit finds one where there is one, by fewer values of the map",
+                   "[intersect][finish]", BezierQuad, BezierTriangle) {
+  Random random(55);
+  int hits = 0, off = 0;
+  RayCounters closest, any, closest_of_wild, any_of_wild;
+  for (int i = 0; i < 4000; ++i) {
+    // Every other patch is as gentle as pieces are. Of the wild, an interval may begin or end among the hits, for
+    // depths are about 4.
+    const bool is_gentle = i % 2 == 0;
+    const auto patch = random_patch<TestType>(random, random.uniform(0, is_gentle ? 0.1 : 1));
+    Interval interval;
+    if (!is_gentle) (random.index(2) == 0 ? interval.near : interval.far) = random.uniform(3, 5);
+    NewtonFinish<TestType> nearest(patch_error, interval.near, interval.far, false,
+                                   is_gentle ? closest : closest_of_wild);
+    NewtonFinish<TestType> first(patch_error, interval.near, interval.far, false, is_gentle ? any : any_of_wild);
+    first.settle_for_any();
+    const bool has_hit = nearest.solve(Net(patch));
+    CAPTURE(i, interval.near, interval.far);
+    REQUIRE(first.solve(Net(patch)) == has_hit);
+    if (!has_hit) continue;
+    ++hits;
+    const PatchHit& hit = first.hit();
+    if (!hit.radius.allFinite()) continue;
+    // A zero is where it is said to be: Newton's method from there, in the rectangle.
+    Parameter at = hit.at;
+    for (int step = 0; step < 30; ++step) {
+      const Derivatives d = patch.derivatives(at);
+      const Vec3 p = patch.position(at);
+      Eigen::Matrix2d jacobian;
+      jacobian << d.du.template head<2>(), d.dv.template head<2>();
+      const Parameter change = jacobian.inverse() * p.template head<2>();
+      at = (at - change).cwiseMax(hit.at - hit.radius).cwiseMin(hit.at + hit.radius);
+    }
+    CHECK(patch.position(at).template head<2>().norm() < 1e-12);
+    const double distance = patch.position(at).z();
+    CHECK(distance >= interval.near - 1e-12);
+    CHECK(distance <= interval.far + 1e-12);
+    off += (hit.at - at).norm() > 1e-6;
+  }
+  CHECK(hits > 1000);
+  CHECK(off > hits / 4);
+  // Of triangles, whose places are nearer to the sides, fewer hits are proven so.
+  const double share = std::is_same_v<TestType, BezierQuad> ? 0.5 : 0.9;
+  CHECK(static_cast<double>(any.newton_steps) < share * static_cast<double>(closest.newton_steps));
+}
+
 }  // namespace shaolin
