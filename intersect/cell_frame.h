@@ -34,6 +34,7 @@ class CellFrame {
   Vec3 supporting_point(const SurfaceCell& cell, const Vec3& n) const {
     return (*this)(cell.supporting_point(linear_.transpose() * n));
   }
+  /// A lower bound of n . x over a cell, up to error().
   double low(const SurfaceCell& cell, const Vec3& n) const { return n.dot(supporting_point(cell, n)); }
   /// A lower bound of |map x| over a cell relative to a point, as SurfaceCell::least_length().
   double least_length(const SurfaceCell& cell, const Eigen::Matrix3d& map, const Vec3& point,

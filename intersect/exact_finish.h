@@ -190,8 +190,8 @@ class ExactFinish {
     TreeTotals& totals_;
     std::optional<RayFrame> frame_;
     double error_ = 0;
-    bool any_ = false;
-    int cells_ = 0;  ///< that solvers have looked at, where all hits are asked for
+    bool any_ = false;  ///< whether any hit will do
+    int cells_ = 0;     ///< that solvers have looked at, where all hits are asked for
   };
 
   static const PolynomialPatch<S>& polynomial_of(const PatchNode<S>& patch) {

@@ -126,7 +126,7 @@ class NewtonFinish {
   bool has_hit_;  ///< best_.distance is that of a hit
   RayCounters& counters_;
   PatchHit best_;
-  bool any_ = false;
+  bool any_ = false;                      ///< see settle_for_any()
   std::vector<PatchHit>* all_ = nullptr;  ///< where hits go if all are asked for
   std::size_t own_first_ = 0;             ///< of them, the first of this patch
   bool found_ = false;
