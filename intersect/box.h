@@ -48,9 +48,12 @@ struct Box {
 
 /// The bounds of points.
 inline Box hull_of(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& point : points) box.add(point);
-  return box;
+  Vec3 lower = Box().lower, upper = Box().upper;  // of their own, to stay in registers
+  for (const Vec3& point : points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  return {lower, upper};
 }
 
 /// The largest power of two that is not above x, positive and finite. (Of a normal number, what its exponent says.)

@@ -25,16 +25,15 @@ SceneBox EightBoxes::bound() const {
   return all;
 }
 
+/// (Rounding to the nearest float moves a number by 2^-24 of it at most, or by 2^-150: what it is moved by before covers
+/// that. So it takes no branches.)
 SceneBox::SceneBox(const Box& box, const BoxSpace& space) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
   const Vec3 lower = space(box.lower), upper = space(box.upper);
+  const auto margin = [](double bound) { return (0x1p-22 + 0x1.1p-24) * std::abs(bound) + 0x1p-149; };
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double low = lower[static_cast<Eigen::Index>(axis)], high = upper[static_cast<Eigen::Index>(axis)];
-    low -= 0x1p-22 * std::abs(low);
-    high += 0x1p-22 * std::abs(high);
-    float &to_low = bounds[0][axis] = static_cast<float>(low), &to_high = bounds[1][axis] = static_cast<float>(high);
-    if (to_low > low) to_low = std::nextafter(to_low, -infinity);
-    if (to_high < high) to_high = std::nextafter(to_high, infinity);
+    const double low = lower[static_cast<Eigen::Index>(axis)], high = upper[static_cast<Eigen::Index>(axis)];
+    bounds[0][axis] = static_cast<float>(low - margin(low));
+    bounds[1][axis] = static_cast<float>(high + margin(high));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Boxes for faces that nobody has refined yet.
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "../schemes/subdivision_mesh.h"
@@ -21,7 +22,8 @@ std::vector<Box> split_face_bounds(const SubdivisionMesh<S>& mesh) {
   return result;
 }
 
-/// Under Chaikin's rule: the hulls of the faces around the corners, expanded.
+/// The hulls of the faces around the corners, expanded where refinement may leave them (under Chaikin's rule, see
+/// hull_expansion.h). By what is around vertices, of whatever faces.
 template <Scheme S>
 std::vector<Box> control_face_bounds(const SubdivisionMesh<S>& mesh) {
   std::vector<Box> around(static_cast<std::size_t>(mesh.vertex_count()));
@@ -39,6 +41,7 @@ std::vector<Box> control_face_bounds(const SubdivisionMesh<S>& mesh) {
     }
   }
   std::vector<Box> result;
+  result.reserve(static_cast<std::size_t>(mesh.face_count()));
   for (const int f : mesh.faces()) {
     Box box;
     float sharpness = 0;
@@ -51,40 +54,42 @@ std::vector<Box> control_face_bounds(const SubdivisionMesh<S>& mesh) {
   return result;
 }
 
-template <Scheme S>
-std::vector<Box> refined_face_bounds(const SubdivisionMesh<S>& mesh) {
-  const RefinedBounds<S> refined(mesh);
-  const double share = refined.outside_share();
-  std::vector<Box> result;
-  result.reserve(static_cast<std::size_t>(mesh.face_count()));
-  for (const int f : mesh.faces()) {
-    Box box;
-    for (const int v : mesh.face(f)) box.add(refined.around(v));
-    if (!repeats_vertex(mesh.face(f))) {
-      const Box own = refined.of(f);
-      box = {own.lower.cwiseMin((1 - share) * own.lower + share * box.lower),
-             own.upper.cwiseMax((1 - share) * own.upper + share * box.upper)};
-    }
-    result.push_back(box.with_rounding());
-  }
+/// Vertices of faces that repeat a vertex.
+inline std::vector<bool> vertices_of_odd_faces(const Mesh& mesh) {
+  const HalfEdges& half_edges = mesh.half_edges();
+  std::vector<bool> result(static_cast<std::size_t>(mesh.vertex_count()), false);
+  for (int side = 0; side < half_edges.side_count(); ++side)
+    if (half_edges.is_degenerate(side))
+      for (const int v : mesh.face(half_edges.face(side))) result[static_cast<std::size_t>(v)] = true;
   return result;
 }
 
 }  // namespace detail
 
 /// For every face a box that holds its limit, with room for rounding: the hull of its Bezier points if it is regular;
-/// else from the points that one refinement step makes (RefinedBounds), expanded where refinement may leave the hull
-/// (under Chaikin's rule, see hull_expansion.h; there it is the hull of the control points). O(size), without refining
-/// anything, for masks that are convex combinations; else every face is split twice.
+/// else from the points that one refinement step makes (RefinedBounds), or under Chaikin's rule and beside faces that
+/// repeat a vertex from the control points. O(size), without refining anything, for masks that are convex combinations;
+/// else every face is split twice.
 template <Scheme S>
 std::vector<Box> face_bounds(const SubdivisionMesh<S>& mesh) {
   if (!mesh.table().is_convex()) return detail::split_face_bounds(mesh);
-  std::vector<Box> result = mesh.rules().creases == CreaseMethod::chaikin ? detail::control_face_bounds(mesh)
-                                                                          : detail::refined_face_bounds(mesh);
-  if (basis_of(mesh.rules().scheme) == Basis::spline) {
-    const RegularBounds<S> regular(mesh);
-    for (const int f : mesh.faces())
-      if (regular.is_regular(f)) result[static_cast<std::size_t>(f)] = regular(f);
+  const bool is_chaikin = mesh.rules().creases == CreaseMethod::chaikin;
+  const bool has_odd = mesh.half_edges().degenerate_side_count() > 0;
+  std::vector<Box> result = is_chaikin || has_odd ? detail::control_face_bounds(mesh)
+                                                  : std::vector<Box>(static_cast<std::size_t>(mesh.face_count()));
+  const std::vector<bool> is_odd = has_odd ? detail::vertices_of_odd_faces(mesh) : std::vector<bool>();
+  std::optional<RefinedBounds<S>> refined;
+  for (const int f : mesh.faces()) {
+    Box& box = result[static_cast<std::size_t>(f)];
+    if (basis_of(mesh.rules().scheme) == Basis::spline)
+      if (const std::optional<Box> regular = regular_bound(mesh, f)) {
+        box = *regular;
+        continue;
+      }
+    const auto is_beside_odd = [&](int v) { return is_odd[static_cast<std::size_t>(v)]; };
+    if (is_chaikin || (has_odd && std::ranges::any_of(mesh.face(f), is_beside_odd))) continue;
+    if (!refined) refined.emplace(mesh);
+    box = (*refined)(f).with_rounding();
   }
   return result;
 }

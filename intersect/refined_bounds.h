@@ -12,23 +12,9 @@
 
 namespace shaolin {
 
-namespace detail {
-
-/// A face that is not to be taken for what its size says.
-inline bool repeats_vertex(std::span<const int> face) {
-  for (std::size_t i = 1; i < face.size(); ++i) {
-    const auto before = face.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(face.begin(), before, face[i]) != before) return true;
-  }
-  return false;
-}
-
-}  // namespace detail
-
-/// The points that one refinement step makes, without walking rings: sums over the faces at a vertex and at an edge say
-/// what the smooth rules make, sharp edges at a vertex what a crease does. Where more than one rule may have a say
-/// (where sharpness ends, or a corner's), points of all of them are in the box; where a face repeats a vertex, all that
-/// is around. For schemes whose masks are not negative, and not for Chaikin's rule.
+/// The points that one refinement step makes around vertices and faces, by steps from half-edge to half-edge. Where
+/// more than one rule may have a say (where sharpness ends, or a corner's), points of all of them are in the box. For
+/// schemes whose masks are not negative, not for Chaikin's rule, and not beside faces that repeat a vertex.
 template <Scheme S>
 class RefinedBounds {
   static constexpr bool quads = S::face_kind == FaceKind::quad;
@@ -37,11 +23,9 @@ class RefinedBounds {
   /// O(size).
   explicit RefinedBounds(const SubdivisionMesh<S>& mesh);
 
-  /// A box of all new points around a vertex: of itself, its edges and its faces.
-  const Box& around(int vertex) const { return at(vertex).around; }
-
-  /// A box of the new points of a face: of its vertices and edges, and its own.
-  Box of(int face) const;
+  /// A box that holds the limit of a face: of the new points of its vertices and edges and its own, moved by
+  /// outside_share() of the way to a box of the new points around its vertices. O(its valences), once for each vertex.
+  Box operator()(int face);
 
   /// Scalar data that are 0 at the vertices of a new face and 1 elsewhere have limits up to this on the face, see
   /// find_outside_share(). So its limit lies in a box of its vertices, moved by this share of the way to a box of the
@@ -49,154 +33,147 @@ class RefinedBounds {
   double outside_share() const { return outside_share_; }
 
  private:
+  /// Boxes of a vertex's new point, and of all new points around: of itself, its edges and its faces.
   struct Vertex {
-    Box old;     ///< what is around: itself, its neighbours and the new face points
-    Box point;   ///< of the new point
-    Box around;  ///< see around()
-    Box crease_ends;
-    Vec3 sum_of_neighbours = Vec3::Zero(), sum_of_faces = Vec3::Zero();  ///< the former each twice
-    int faces = 0, edges = 0, sharp_edges = 0, lasting_edges = 0;        ///< sharp now, and after this step
-    bool is_odd = false;                                                 ///< a face repeats a vertex
-  };
-  struct Edge {
-    Vec3 across = Vec3::Zero();  ///< the sum of new face points, or of opposite vertices, on both sides
-    int faces = 0;
-    Box point;
+    Box point, around;
   };
 
-  Vertex& at(int vertex) { return vertices_[static_cast<std::size_t>(vertex)]; }
-  const Vertex& at(int vertex) const { return vertices_[static_cast<std::size_t>(vertex)]; }
-  Edge& edge(int side) { return edges_[static_cast<std::size_t>(side)]; }
-
-  void gather();
-  void bound_vertex(int v);
-  void bound_edge(int e);
+  const Vertex& vertex(int corner);
+  Vertex bound_vertex(int corner);
+  Box edge_point(int side) const;
+  /// The new point of a face, or of triangles the vertex across a side.
+  Vec3 across(int side) const;
   double find_outside_share() const;
 
   const SubdivisionMesh<S>& mesh_;
+  const HalfEdges& half_edges_;
   std::vector<EdgeMask> edge_masks_;  ///< all that differ
+  std::vector<int> numbers_;          ///< of vertices that are known; -1 for others
   std::vector<Vertex> vertices_;
-  std::vector<Edge> edges_;
   double outside_share_ = 1;
 };
 
 template <Scheme S>
 RefinedBounds<S>::RefinedBounds(const SubdivisionMesh<S>& mesh)
-    : mesh_(mesh),
-      vertices_(static_cast<std::size_t>(mesh.vertex_count())),
-      edges_(static_cast<std::size_t>(mesh.edge_count())) {
+    : mesh_(mesh), half_edges_(mesh.half_edges()), numbers_(static_cast<std::size_t>(mesh.vertex_count()), -1) {
   for (const int triangles : {0, 1, 2}) {
     const EdgeMask mask = mesh.rules().edge(triangles);
     const auto is_same = [&](const EdgeMask& known) { return known.end == mask.end && known.side == mask.side; };
     if (std::none_of(edge_masks_.begin(), edge_masks_.end(), is_same)) edge_masks_.push_back(mask);
   }
-  gather();
-  for (const int v : mesh.vertices()) bound_vertex(v);
-  for (const int e : mesh.edges()) bound_edge(e);
   outside_share_ = find_outside_share();
 }
 
 template <Scheme S>
-void RefinedBounds<S>::gather() {
-  for (const int f : mesh_.faces()) {
-    const FaceSides face = mesh_.face_sides(f);
-    const std::span<const int> v = mesh_.face(f);
-    const int n = face.size();
-    const Vec3 middle = face_point({mesh_.points().data(), v.data(), n});
-    const bool is_odd = detail::repeats_vertex(v);
-    for (int i = 0; i < n; ++i) {
-      Vertex& vertex = at(face.vertex(i));
-      const Vec3 &next = mesh_.point(face.vertex(i + 1 == n ? 0 : i + 1)),
-                 &last = mesh_.point(face.vertex(i == 0 ? n - 1 : i - 1));
-      vertex.old.add(next);
-      vertex.old.add(last);
-      vertex.sum_of_neighbours += next + last;
-      if (quads) {
-        vertex.old.add(middle);
-        vertex.around.add(middle);
-        vertex.sum_of_faces += middle;
-      }
-      vertex.is_odd |= is_odd;
-      ++vertex.faces;
-      if (face.side(i) >= mesh_.edge_count()) continue;
-      Edge& side = edge(face.side(i));
-      side.across += quads ? middle : last;
-      ++side.faces;
-    }
+Box RefinedBounds<S>::operator()(int face) {
+  const int first = half_edges_.first(face), size = mesh_.face_size(face);
+  Box own, around;
+  if (quads) own.add(across(first));
+  for (int side = first; side < first + size; ++side) {
+    own.add(vertex(side).point);
+    own.add(edge_point(side));
+    around.add(vertex(side).around);
   }
-  for (const int e : mesh_.edges()) {
-    const Mesh::Edge edge = mesh_.edge(e);
-    for (const auto& [from, to] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
-      Vertex& vertex = at(from);
-      ++vertex.edges;
-      if (!is_sharp(edge.sharpness)) continue;
-      ++vertex.sharp_edges;
-      vertex.lasting_edges += edge.sharpness > 1;
-      vertex.crease_ends.add(mesh_.point(to));
-    }
-  }
+  const double share = outside_share_;
+  return {own.lower.cwiseMin((1 - share) * own.lower + share * around.lower),
+          own.upper.cwiseMax((1 - share) * own.upper + share * around.upper)};
 }
 
 template <Scheme S>
-void RefinedBounds<S>::bound_vertex(int v) {
+auto RefinedBounds<S>::vertex(int corner) -> const Vertex& {
+  int& number = numbers_[static_cast<std::size_t>(half_edges_.from(corner))];
+  if (number < 0) {
+    number = static_cast<int>(vertices_.size());
+    vertices_.push_back(bound_vertex(corner));
+  }
+  return vertices_[static_cast<std::size_t>(number)];
+}
+
+template <Scheme S>
+Vec3 RefinedBounds<S>::across(int side) const {
+  if (!quads) return mesh_.point(half_edges_.from(half_edges_.previous(side)));
+  const std::span<const int> face = mesh_.face(half_edges_.face(side));
+  return face_point({mesh_.points().data(), face.data(), static_cast<int>(face.size())});
+}
+
+template <Scheme S>
+auto RefinedBounds<S>::bound_vertex(int corner) -> Vertex {
   const Rules<S>& rules = mesh_.rules();
+  const int v = half_edges_.from(corner);
   const Vec3& point = mesh_.point(v);
-  Vertex& vertex = at(v);
-  vertex.old.add(point);
-  const int n = vertex.faces;
+
+  Box old, crease_ends;  // of itself, its neighbours and the new points of its faces; of sharp edges' ends
+  Vec3 sum_of_neighbours = Vec3::Zero(), sum_of_faces = Vec3::Zero();
+  int edges = 0, faces = 0, sharp_edges = 0, lasting_edges = 0;  // sharp now, and after this step
+  Vertex result;
+  old.add(point);
+  const auto add_edge = [&](int side, int end) {
+    old.add(mesh_.point(end));
+    sum_of_neighbours += mesh_.point(end);
+    ++edges;
+    result.around.add(edge_point(side));
+    if (!mesh_.has_sharp_edge(v)) return;
+    const float sharpness = mesh_.edge(half_edges_.edge(side)).sharpness;
+    if (!is_sharp(sharpness)) return;
+    ++sharp_edges;
+    lasting_edges += sharpness > 1;
+    crease_ends.add(mesh_.point(end));
+  };
+  int first = corner;
+  for (int at = half_edges_.clockwise(corner); at >= 0 && at != corner; at = half_edges_.clockwise(at)) first = at;
+  int at = first;
+  do {
+    ++faces;
+    if (quads) {
+      const Vec3 middle = across(at);
+      old.add(middle);
+      result.around.add(middle);
+      sum_of_faces += middle;
+    }
+    add_edge(at, half_edges_.to(at));
+    const int last = half_edges_.previous(at);
+    at = half_edges_.counter_clockwise(at);
+    if (at < 0) add_edge(last, half_edges_.from(last));
+  } while (at >= 0 && at != first);
+
   const float sharpness = mesh_.vertex_sharpness(v);
-  const bool is_lasting = vertex.lasting_edges > 1 || sharpness > 1;  // no smooth rule has a say
-  const bool is_ring = vertex.edges == n && n > 1;
-  if (vertex.is_odd || (!is_lasting && !is_ring)) {
-    vertex.point = vertex.old;
+  const bool is_lasting = lasting_edges > 1 || sharpness > 1;  // no smooth rule has a say
+  const bool is_ring = edges == faces && faces > 1;
+  Box& box = result.point;
+  if (!is_lasting && !is_ring) {
+    box = old;
   } else {
-    if (is_sharp(sharpness) || vertex.sharp_edges > 2) vertex.point.add(point);
-    if (vertex.sharp_edges > 1) {
+    if (is_sharp(sharpness) || sharp_edges > 2) box.add(point);
+    if (sharp_edges > 1) {
       // (Of two neighbours, the box's corners sum to their sum.)
       const CreaseMask mask = rules.crease();
-      const Box& ends = vertex.crease_ends;
-      const Vec3 own = mask.vertex * point, sum = mask.edge * (ends.lower + ends.upper);
-      if (vertex.sharp_edges == 2)
-        vertex.point.add(Vec3(own + sum));
+      const Vec3 own = mask.vertex * point, sum = mask.edge * (crease_ends.lower + crease_ends.upper);
+      if (sharp_edges == 2)
+        box.add(Vec3(own + sum));
       else
-        vertex.point.add(Box{own + 2 * mask.edge * ends.lower, own + 2 * mask.edge * ends.upper});
+        box.add(Box{own + 2 * mask.edge * crease_ends.lower, own + 2 * mask.edge * crease_ends.upper});
     }
     const auto add_smooth = [&](const VertexMask& mask) {
-      vertex.point.add(
-          Vec3(mask.vertex * point + 0.5 * mask.edge * vertex.sum_of_neighbours + mask.face * vertex.sum_of_faces));
+      box.add(Vec3(mask.vertex * point + mask.edge * sum_of_neighbours + mask.face * sum_of_faces));
     };
     constexpr VertexTransition dart{.parent = VertexRule::dart};
-    if (!is_lasting) add_smooth(rules.vertex(n, {}, mesh_.is_cone(v)));
-    if (!is_lasting && vertex.sharp_edges > 0) add_smooth(rules.vertex(n, dart, false));
+    if (!is_lasting) add_smooth(rules.vertex(faces, {}, mesh_.is_cone(v)));
+    if (!is_lasting && sharp_edges > 0) add_smooth(rules.vertex(faces, dart, false));
   }
-  vertex.around.add(vertex.point);
-  if (vertex.is_odd) vertex.around.add(vertex.old);
+  result.around.add(box);
+  return result;
 }
 
 template <Scheme S>
-void RefinedBounds<S>::bound_edge(int e) {
-  const Mesh::Edge edge = mesh_.edge(e);
-  Edge& side = this->edge(e);
+Box RefinedBounds<S>::edge_point(int side) const {
+  const int twin = half_edges_.twin(side);
+  const Mesh::Edge edge = mesh_.edge(std::min(side, twin));
   const Vec3 ends = mesh_.point(edge.a) + mesh_.point(edge.b);
-  if (is_sharp(edge.sharpness) || side.faces != 2) side.point.add(Vec3(0.5 * ends));
-  if (!(edge.sharpness >= 1))
-    for (const EdgeMask& mask : edge_masks_)
-      side.point.add(side.faces == 2 ? Vec3(mask.end * ends + mask.side * side.across) : side.across);
-  for (const int v : {edge.a, edge.b}) {
-    at(v).around.add(side.point);
-    if (at(v).is_odd) side.point.add(at(v).old);
-  }
-}
-
-template <Scheme S>
-Box RefinedBounds<S>::of(int face) const {
-  const FaceSides sides = mesh_.face_sides(face);
   Box box;
-  if (quads) box.add(face_point({mesh_.points().data(), mesh_.face(face).data(), sides.size()}));
-  for (int i = 0; i < sides.size(); ++i) {
-    box.add(at(sides.vertex(i)).point);
-    if (sides.side(i) < mesh_.edge_count()) box.add(edges_[static_cast<std::size_t>(sides.side(i))].point);
-  }
+  if (is_sharp(edge.sharpness) || twin == side) box.add(Vec3(0.5 * ends));
+  if (edge.sharpness >= 1) return box;
+  const Vec3 sides = twin == side ? across(side) : across(side) + across(twin);
+  for (const EdgeMask& mask : edge_masks_) box.add(twin == side ? sides : Vec3(mask.end * ends + mask.side * sides));
   return box;
 }
 
@@ -218,17 +195,20 @@ double RefinedBounds<S>::find_outside_share() const {
     is_known[static_cast<std::size_t>(n)] = true;
     vertices.emplace_back(n, rules.vertex(n, {}, false));
   };
+  std::vector<int> faces_at(static_cast<std::size_t>(mesh_.vertex_count()), 0);
   int most = 0;
-  for (const Vertex& vertex : vertices_) most = std::max(most, vertex.faces);
-  for (const int f : mesh_.faces()) most = std::max(most, mesh_.face_size(f));
+  for (const int f : mesh_.faces()) {
+    for (const int v : mesh_.face(f)) most = std::max(most, ++faces_at[static_cast<std::size_t>(v)]);
+    most = std::max(most, mesh_.face_size(f));
+  }
   is_known.resize(static_cast<std::size_t>(most) + 1);
   for (const int f : mesh_.faces()) see(mesh_.face_size(f));
   for (const int v : mesh_.vertices()) {
-    const int n = at(v).faces;
+    const int n = faces_at[static_cast<std::size_t>(v)];
     see(n);
     constexpr VertexTransition dart{.parent = VertexRule::dart};
     if (n > 1 && mesh_.is_cone(v)) vertices.emplace_back(n, rules.vertex(n, {}, true));
-    if (n > 1 && at(v).sharp_edges > 0) vertices.emplace_back(n, rules.vertex(n, dart, false));
+    if (n > 1 && mesh_.has_sharp_edge(v)) vertices.emplace_back(n, rules.vertex(n, dart, false));
   }
 
   double a = 0, b = 1, c = 1;

@@ -79,7 +79,7 @@ class ShaoLin {
 
   /// Adds what rays have made so far, and the memory that it takes.
   void add_to(Statistics& total) const {
-    total.faces += primitives_.size();
+    total.faces += start_patches_.size();
     total.bytes += bvh_.bytes() + primitives_.size() * sizeof(Primitive);
     start_patches_.add_to(total);
   }
@@ -98,6 +98,9 @@ class ShaoLin {
     Primitive primitive;
   };
 
+  Primitive primitive(int number) const {
+    return primitives_.empty() ? Primitive{number, 0} : primitives_[static_cast<std::size_t>(number)];
+  }
   const StartPatch& start_patch(int primitive) const {
     const StartPatch* const known = start_patches_.find(static_cast<std::size_t>(primitive));
     return known ? *known : make_start_patch(primitive);
@@ -117,7 +120,7 @@ class ShaoLin {
 
   const SchemeSurface<S>& surface_;
   Finish<S> finish_;
-  std::vector<Primitive> primitives_;
+  std::vector<Primitive> primitives_;  ///< none if they are the faces
   Bvh bvh_;
   mutable StartPatches<StartPatch> start_patches_;
 };
@@ -127,19 +130,24 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
                             const std::shared_ptr<PatchBudget>& budget)
     : surface_(surface), finish_(finish), start_patches_(budget) {
   const SubdivisionMesh<S>& mesh = surface.mesh();
-  const std::vector<Box> bounds = face_bounds(mesh);
-  std::vector<Box> boxes;
+  std::vector<Box> boxes = face_bounds(mesh);
+  bool are_faces = true;
   for (const int f : mesh.faces()) {
-    if (!mesh.has_limit(f)) continue;
-    const Box& box = bounds[static_cast<std::size_t>(f)];
-    if (!box.lower.allFinite() || !box.upper.allFinite())
+    are_faces &= mesh.has_limit(f) && surface.sub_count(f) == 1;
+    const Box& box = boxes[static_cast<std::size_t>(f)];
+    if (mesh.has_limit(f) && (!box.lower.allFinite() || !box.upper.allFinite()))
       throw InputError("nothing bounds the surface of face " + std::to_string(f) +
                        ": its coordinates are too large, or the masks of the scheme do not sum to one or not "
                        "converge; see 'shaolin scheme check'");
-    for (int sub = 0; sub < surface.sub_count(f); ++sub) {
-      boxes.push_back(box);
-      primitives_.push_back({f, sub});
-    }
+  }
+  if (!are_faces) {
+    const std::vector<Box> of_faces = std::move(boxes);
+    boxes.clear();
+    for (const int f : mesh.faces())
+      for (int sub = 0; mesh.has_limit(f) && sub < surface.sub_count(f); ++sub) {
+        boxes.push_back(of_faces[static_cast<std::size_t>(f)]);
+        primitives_.push_back({f, sub});
+      }
   }
   bvh_ = Bvh(boxes);
   start_patches_.resize(boxes.size());
@@ -147,7 +155,7 @@ ShaoLin<S, Finish>::ShaoLin(const SchemeSurface<S>& surface, const Finish<S>& fi
 
 template <Scheme S, template <class> class Finish>
 auto ShaoLin<S, Finish>::make_start_patch(int primitive) const -> const StartPatch& {
-  const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+  const auto [face, sub] = this->primitive(primitive);
   TreeTotals making;  // counted if no other thread is first
   auto made = std::make_unique<StartPatch>(surface_.patch(face, sub), surface_.splits_by_corner(face), bvh_.space(),
                                            finish_, making);
@@ -169,7 +177,7 @@ auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, R
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
         const std::optional<Found> found = finish_.template search<query>(start, approach, start_patches_.totals());
         if (!found) return false;
-        best = {*found, primitives_[static_cast<std::size_t>(primitive)]};
+        best = {*found, this->primitive(primitive)};
         approach.shorten(found->distance);
         return query == Query::any;
       });
@@ -200,7 +208,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
       [&](int primitive) {
         const StartPatch& start = start_patch(primitive);
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
-        const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+        const auto [face, sub] = this->primitive(primitive);
         found.clear();
         finish_.search_all(start, approach, start_patches_.totals(), found);
         for (const Found& one : found) {
@@ -245,7 +253,7 @@ template <Scheme S, template <class> class Finish>
 std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
     const PointQuery& query, RayCounters& counters) const requires HasParts<Finish<S>> {
   const PatchBudget::Query guard(start_patches_.budget());
-  if (primitives_.empty()) return {};
+  if (start_patches_.size() == 0) return {};
   PointApproach approach(query, bvh_.bounds(), bvh_.space(), counters);
   ClosestSearch<S> search(approach, start_patches_.totals());
   bvh_.nearest_first(
@@ -259,7 +267,7 @@ std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
   search.run(std::numeric_limits<float>::infinity());
   const auto& best = search.found();
   if (!best) return {};
-  const auto [face, sub] = primitives_[static_cast<std::size_t>(best->primitive)];
+  const auto [face, sub] = primitive(best->primitive);
   ClosestPoint closest;
   closest.level = best->level;
   if (best->patch) {
@@ -275,9 +283,9 @@ std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
 
 template <Scheme S, template <class> class Finish>
 std::unique_ptr<SurfaceCell> ShaoLin<S, Finish>::cells() const requires HasParts<Finish<S>> {
-  if (primitives_.empty()) return {};
+  if (start_patches_.size() == 0) return {};
   const auto leaf = [this](int primitive) -> typename CellSource<S>::Leaf {
-    const auto [face, sub] = primitives_[static_cast<std::size_t>(primitive)];
+    const auto [face, sub] = this->primitive(primitive);
     return {face, sub};
   };
   const auto start = [this](int primitive) -> typename CellSource<S>::Start {

@@ -1,10 +1,9 @@
 #pragma once
 /// The control mesh as it was given: points, faces, sharpness tags. It knows no scheme and no half-edges.
-#include <span>
 #include <string>
 #include <vector>
 
-#include "vec3.h"
+#include "polygon_mesh.h"
 
 namespace shaolin {
 
@@ -35,11 +34,7 @@ struct SharpVertex {
 };
 
 /// Points, faces and tags, with the input's indices (all counted from 0).
-struct ControlMesh {
-  std::vector<Vec3> positions;
-  std::vector<int> face_offsets{0};  ///< face f has corners face_vertices[face_offsets[f] .. face_offsets[f + 1])
-  std::vector<int> face_vertices;
-
+struct ControlMesh : PolygonMesh {
   std::vector<SharpEdge> sharp_edges;
   std::vector<SharpVertex> sharp_vertices;
   std::vector<int> cones;  ///< vertices that keep a tangent cone where the smooth rule would give a tangent plane
@@ -53,15 +48,6 @@ struct ControlMesh {
   /// in a face, neighbours wound against each other, creases on edges that do not exist.
   std::vector<std::string> warnings;
 
-  int face_count() const { return static_cast<int>(face_offsets.size()) - 1; }
-  int face_size(int face) const { return face_offsets[face + 1] - face_offsets[face]; }
-  std::span<const int> face(int face) const {
-    return {face_vertices.data() + face_offsets[face], static_cast<std::size_t>(face_size(face))};
-  }
-  void add_face(std::span<const int> corners) {
-    face_vertices.insert(face_vertices.end(), corners.begin(), corners.end());
-    face_offsets.push_back(static_cast<int>(face_vertices.size()));
-  }
   bool all_triangles() const;
 
   /// Fewer than three of the face's sides join different vertices: it is a segment or a point, without a normal. O(its

@@ -1,6 +1,7 @@
 #include "manifold.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 
@@ -10,43 +11,44 @@ namespace shaolin {
 
 namespace {
 
-/// One side of a face: it runs from its corner's vertex to the next corner's.
-struct Side {
-  int low, high;  ///< the edge's vertices in order
-  int face, corner;
-  bool forward;  ///< runs from low to high
-};
+/// The sides of one edge, by number.
+using EdgeSides = std::span<const int>;
 
 class Cutter {
  public:
-  explicit Cutter(const ControlMesh& mesh)
-      : mesh_(mesh), alone_(static_cast<std::size_t>(mesh.face_count()), 0), pieces_(mesh.face_vertices.size()) {
-    collect_sides();
+  explicit Cutter(const std::shared_ptr<const ControlMesh>& mesh)
+      : mesh_(*mesh),
+        half_edges_(mesh),
+        is_whole_(half_edges_.is_manifold()),
+        counts_(mesh->positions.size()),
+        fans_(mesh->positions.size(), is_whole_) {
+    for (const SharpEdge& edge : mesh_.sharp_edges) tags_[ManifoldMesh::edge_key(edge.a, edge.b)] = edge.sharpness;
   }
 
   ManifoldMesh cut(bool faces_stand_alone);
 
  private:
-  void collect_sides();
-  bool is_manifold(std::span<const Side> edge) const;
-  void inspect(std::span<const Side> edge);
-  void join_fans(std::span<const Side> edge);
+  bool is_manifold(EdgeSides edge) const;
+  void find_fans();
+  void inspect(EdgeSides edge);
+  void join_fans(EdgeSides edge);
   bool isolate_faces();
   int piece(int corner);
   void join(int a, int b) { pieces_[static_cast<std::size_t>(piece(a))] = piece(b); }
-  void number_vertices(ManifoldMesh& result);
-  void set_edge_sharpness(ManifoldMesh& result) const;
+  std::vector<int> numbered_vertices(std::vector<int>& origin, int& cut_vertices);
+  ManifoldMesh with_tags(ManifoldMesh result, bool faces_stand_alone);
+  void set_edge_sharpness(EdgeSides edge, ManifoldMesh& result) const;
   void set_vertex_sharpness(ManifoldMesh& result) const;
   void set_limits(ManifoldMesh& result, bool faces_stand_alone) const;
-  int corner_index(const Side& side, bool at_end) const;
 
+  /// Those of a whole mesh that are no boundary and have no tag say nothing.
   template <class Visit>
   void visit_edges(Visit visit) const {
-    for (std::size_t begin = 0, end; begin < sides_.size(); begin = end) {
-      end = begin + 1;
-      while (end < sides_.size() && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high)
-        ++end;
-      visit(std::span(sides_).subspan(begin, end - begin));
+    if (!is_whole_) return SidesByEdge(half_edges_).for_each_edge(visit);
+    for (int side = 0; side < half_edges_.side_count(); ++side) {
+      const std::array<int, 2> sides{side, half_edges_.twin(side)};
+      if (sides[1] < side || (sides[1] > side && tags_.empty())) continue;
+      visit(EdgeSides(sides).first(sides[1] == side ? 1 : 2));
     }
   }
 
@@ -58,51 +60,28 @@ class Cutter {
   };
 
   const ControlMesh& mesh_;
-  std::vector<Side> sides_;
-  std::vector<char> alone_;  ///< faces cut off all around
-  std::vector<int> pieces_;  ///< union-find over corners: the fan that a corner belongs to
-  std::vector<Counts> counts_;
-  std::vector<int> fans_;  ///< fans per input vertex
+  const HalfEdges half_edges_;  ///< as far as they fit
+  const bool is_whole_;         ///< there is nothing to cut
+  std::vector<char> alone_;     ///< faces cut off all around
+  std::vector<int> pieces_;     ///< union-find over corners: the fan that a corner belongs to
+  std::vector<Counts> counts_;  ///< per input vertex; of a whole mesh some edges are left out
+  std::vector<int> fans_;       ///< per input vertex
   std::unordered_map<std::uint64_t, float> tags_;
 };
 
-void Cutter::collect_sides() {
-  for (const SharpEdge& edge : mesh_.sharp_edges) tags_[ManifoldMesh::edge_key(edge.a, edge.b)] = edge.sharpness;
-  const auto for_each_side = [&](auto visit) {
-    for (int f = 0; f < mesh_.face_count(); ++f) {
-      const std::span<const int> v = mesh_.face(f);
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        const int a = v[i], b = v[(i + 1) % v.size()];
-        visit(Side{std::min(a, b), std::max(a, b), f, static_cast<int>(i), a < b});
-      }
-    }
-  };
-  // By counting, then within the few sides of each lower vertex: O(size).
-  std::vector<std::size_t> ends(mesh_.positions.size() + 1, 0);
-  for_each_side([&](const Side& side) { ++ends[static_cast<std::size_t>(side.low) + 1]; });
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  sides_.resize(mesh_.face_vertices.size());
-  for_each_side([&](const Side& side) { sides_[ends[static_cast<std::size_t>(side.low)]++] = side; });
-  std::size_t begin = 0;  // each entry of `ends` has moved on to its vertex's end
-  for (std::size_t v = 0; v < mesh_.positions.size(); begin = ends[v++])
-    std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin),
-              sides_.begin() + static_cast<std::ptrdiff_t>(ends[v]), [](const Side& x, const Side& y) {
-                return std::tie(x.high, x.face, x.corner) < std::tie(y.high, y.face, y.corner);
-              });
-  counts_.resize(mesh_.positions.size());
-  fans_.resize(mesh_.positions.size());
-}
-
-bool Cutter::is_manifold(std::span<const Side> edge) const {
-  if (edge[0].low == edge[0].high || edge.size() > 2) return false;
+bool Cutter::is_manifold(EdgeSides edge) const {
+  if (is_whole_) return true;
+  if (half_edges_.is_degenerate(edge[0]) || edge.size() > 2) return false;
   if (edge.size() == 1) return true;
-  const auto alone = [&](const Side& side) { return alone_[static_cast<std::size_t>(side.face)] != 0; };
-  return edge[0].face != edge[1].face && edge[0].forward != edge[1].forward && !alone(edge[0]) && !alone(edge[1]);
+  const auto alone = [&](int side) { return alone_[static_cast<std::size_t>(half_edges_.face(side))] != 0; };
+  return half_edges_.face(edge[0]) != half_edges_.face(edge[1]) && half_edges_.twin(edge[0]) == edge[1] &&
+         !alone(edge[0]) && !alone(edge[1]);
 }
 
-void Cutter::inspect(std::span<const Side> edge) {
-  const bool boundary = edge.size() == 1 && edge[0].low != edge[0].high;
-  const auto tag = tags_.find(ManifoldMesh::edge_key(edge[0].low, edge[0].high));
+void Cutter::inspect(EdgeSides edge) {
+  const int from = half_edges_.from(edge[0]), to = half_edges_.to(edge[0]);
+  const bool boundary = edge.size() == 1 && from != to;
+  const auto tag = tags_.find(ManifoldMesh::edge_key(from, to));
   const bool loose = boundary && (tag == tags_.end() || !is_infinite(tag->second));
   const auto add = [&](int vertex) {
     Counts& counts = counts_[static_cast<std::size_t>(vertex)];
@@ -110,16 +89,10 @@ void Cutter::inspect(std::span<const Side> edge) {
     counts.boundary += boundary;
     counts.loose_boundary += loose;
     counts.non_manifold += !is_manifold(edge);
-    counts.repeated |= edge[0].low == edge[0].high;
+    counts.repeated |= from == to;
   };
-  add(edge[0].low);
-  if (edge[0].low != edge[0].high) add(edge[0].high);
-}
-
-/// The flat index of the corner at a side's start or end.
-int Cutter::corner_index(const Side& side, bool at_end) const {
-  const int corner = at_end ? (side.corner + 1) % mesh_.face_size(side.face) : side.corner;
-  return mesh_.face_offsets[static_cast<std::size_t>(side.face)] + corner;
+  add(from);
+  if (from != to) add(to);
 }
 
 int Cutter::piece(int corner) {
@@ -134,13 +107,13 @@ int Cutter::piece(int corner) {
 /// Two faces that meet in a manifold edge are in one fan at both ends; so are both corners of an edge of equal ends. A
 /// collapsed face, which has no inside that half-edges could go round, keeps its corners apart: every one is sharp, and
 /// so is every side, so it is what it would be with vertices of its own, a segment or a point.
-void Cutter::join_fans(std::span<const Side> edge) {
-  if (edge[0].low == edge[0].high) {
-    for (const Side& side : edge)
-      if (!mesh_.is_collapsed(side.face)) join(corner_index(side, false), corner_index(side, true));
+void Cutter::join_fans(EdgeSides edge) {
+  if (half_edges_.is_degenerate(edge[0])) {
+    for (const int side : edge)
+      if (!mesh_.is_collapsed(half_edges_.face(side))) join(side, half_edges_.next(side));
   } else if (edge.size() == 2 && is_manifold(edge)) {
-    join(corner_index(edge[0], false), corner_index(edge[1], true));
-    join(corner_index(edge[0], true), corner_index(edge[1], false));
+    join(edge[0], half_edges_.next(edge[1]));
+    join(half_edges_.next(edge[0]), edge[1]);
   }
 }
 
@@ -164,57 +137,69 @@ bool Cutter::isolate_faces() {
   return found;
 }
 
-ManifoldMesh Cutter::cut(bool faces_stand_alone) {
-  ManifoldMesh result;
-  result.crease_method = mesh_.crease_method;
+void Cutter::find_fans() {
+  const SidesByEdge edges(half_edges_);
+  alone_.assign(static_cast<std::size_t>(mesh_.face_count()), 0);
+  pieces_.resize(mesh_.face_vertices.size());
   do {
     std::iota(pieces_.begin(), pieces_.end(), 0);
-    visit_edges([&](std::span<const Side> edge) { join_fans(edge); });
+    edges.for_each_edge([&](EdgeSides edge) { join_fans(edge); });
   } while (isolate_faces());
-  visit_edges([&](std::span<const Side> edge) {
-    inspect(edge);
-    result.cut_edges += !is_manifold(edge);
-  });
-  for (const int vertex : mesh_.face_vertices) ++counts_[static_cast<std::size_t>(vertex)].faces;
-  number_vertices(result);
-  set_edge_sharpness(result);
-  set_vertex_sharpness(result);
-  set_limits(result, faces_stand_alone);
-  return result;
 }
 
 /// The first fan of an input vertex keeps the vertex's number; further ones are appended.
-void Cutter::number_vertices(ManifoldMesh& result) {
-  result.origin.resize(mesh_.positions.size());
-  std::iota(result.origin.begin(), result.origin.end(), 0);
-  result.face_offsets = mesh_.face_offsets;
-  result.face_vertices.resize(mesh_.face_vertices.size());
-  std::vector<int> number_of_piece(pieces_.size(), -1);
+std::vector<int> Cutter::numbered_vertices(std::vector<int>& origin, int& cut_vertices) {
+  std::vector<int> result(mesh_.face_vertices.size()), number_of_piece(pieces_.size(), -1);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     int& number = number_of_piece[static_cast<std::size_t>(piece(static_cast<int>(i)))];
     if (number < 0) {
       const int vertex = mesh_.face_vertices[i];
       const int fan = fans_[static_cast<std::size_t>(vertex)]++;
-      number = fan == 0 ? vertex : static_cast<int>(result.origin.size());
-      if (fan == 1) ++result.cut_vertices;
-      if (fan > 0) result.origin.push_back(vertex);
+      number = fan == 0 ? vertex : static_cast<int>(origin.size());
+      if (fan == 1) ++cut_vertices;
+      if (fan > 0) origin.push_back(vertex);
     }
-    result.face_vertices[i] = number;
+    result[i] = number;
   }
+  return result;
 }
 
-void Cutter::set_edge_sharpness(ManifoldMesh& result) const {
-  visit_edges([&](std::span<const Side> edge) {
-    const auto tag = tags_.find(ManifoldMesh::edge_key(edge[0].low, edge[0].high));
-    float sharpness = tag == tags_.end() ? 0 : tag->second;
-    if (edge.size() == 1 || !is_manifold(edge)) sharpness = infinite_sharpness;
-    if (!is_sharp(sharpness)) return;
-    for (const Side& side : edge) {
-      const int a = result.face_vertices[static_cast<std::size_t>(corner_index(side, false))];
-      const int b = result.face_vertices[static_cast<std::size_t>(corner_index(side, true))];
-      result.sharp_edges[ManifoldMesh::edge_key(a, b)] = sharpness;
-    }
+ManifoldMesh Cutter::cut(bool faces_stand_alone) {
+  std::vector<int> origin(mesh_.positions.size());
+  std::iota(origin.begin(), origin.end(), 0);
+  if (is_whole_) return with_tags(ManifoldMesh(half_edges_, std::move(origin)), faces_stand_alone);
+  find_fans();
+  PolygonMesh pieces;
+  int cut_vertices = 0;
+  pieces.face_vertices = numbered_vertices(origin, cut_vertices);
+  pieces.face_offsets = mesh_.face_offsets;
+  pieces.positions.reserve(origin.size());
+  for (const int from : origin) pieces.positions.push_back(mesh_.positions[static_cast<std::size_t>(from)]);
+  ManifoldMesh result(HalfEdges(std::make_shared<const PolygonMesh>(std::move(pieces))), std::move(origin));
+  result.cut_vertices = cut_vertices;
+  return with_tags(std::move(result), faces_stand_alone);
+}
+
+ManifoldMesh Cutter::with_tags(ManifoldMesh result, bool faces_stand_alone) {
+  result.crease_method = mesh_.crease_method;
+  visit_edges([&](EdgeSides edge) {
+    inspect(edge);
+    result.cut_edges += !is_manifold(edge);
+    set_edge_sharpness(edge, result);
   });
+  for (const int vertex : mesh_.face_vertices) ++counts_[static_cast<std::size_t>(vertex)].faces;
+  set_vertex_sharpness(result);
+  set_limits(result, faces_stand_alone);
+  return result;
+}
+
+void Cutter::set_edge_sharpness(EdgeSides edge, ManifoldMesh& result) const {
+  const auto tag = tags_.find(ManifoldMesh::edge_key(half_edges_.from(edge[0]), half_edges_.to(edge[0])));
+  float sharpness = tag == tags_.end() ? 0 : tag->second;
+  if (edge.size() == 1 || !is_manifold(edge)) sharpness = infinite_sharpness;
+  if (!is_sharp(sharpness)) return;
+  for (const int side : edge)
+    result.sharp_edges[ManifoldMesh::edge_key(result.half_edges.from(side), result.half_edges.to(side))] = sharpness;
 }
 
 void Cutter::set_vertex_sharpness(ManifoldMesh& result) const {
@@ -237,19 +222,19 @@ void Cutter::set_vertex_sharpness(ManifoldMesh& result) const {
 void Cutter::set_limits(ManifoldMesh& result, bool faces_stand_alone) const {
   result.has_limit.assign(static_cast<std::size_t>(mesh_.face_count()), 1);
   for (const int hole : mesh_.holes) result.has_limit[static_cast<std::size_t>(hole)] = 0;
+  if (faces_stand_alone || mesh_.boundary != BoundaryInterpolation::none) return;
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const std::span<const int> v = mesh_.face(f);
     for (const int vertex : v) {
       const bool loose = counts_[static_cast<std::size_t>(vertex)].loose_boundary > 0;
-      if (loose && !faces_stand_alone && mesh_.boundary == BoundaryInterpolation::none)
-        result.has_limit[static_cast<std::size_t>(f)] = 0;
+      if (loose) result.has_limit[static_cast<std::size_t>(f)] = 0;
     }
   }
 }
 
 }  // namespace
 
-ManifoldMesh cut_to_manifold(const ControlMesh& mesh, bool faces_stand_alone) {
+ManifoldMesh cut_to_manifold(const std::shared_ptr<const ControlMesh>& mesh, bool faces_stand_alone) {
   return Cutter(mesh).cut(faces_stand_alone);
 }
 

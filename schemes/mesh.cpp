@@ -1,151 +1,107 @@
 #include "mesh.h"
 
 #include <algorithm>
-#include <cassert>
 #include <string>
+#include <unordered_map>
 
 #include "errors.h"
 #include "sharpness.h"
 
 namespace shaolin {
 
-Mesh::Mesh(const ManifoldMesh& topology, std::vector<Vec3> points)
-    : points_(std::move(points)),
-      face_offsets_(topology.face_offsets),
-      face_vertices_(topology.face_vertices),
-      vertex_sharpness_(topology.vertex_sharpness),
-      is_cone_(topology.is_cone),
-      has_limit_(topology.has_limit) {
-  corner_at_.assign(points_.size(), {-1, 0});
-  build_half_edges();
-  number_sides();
+Mesh::Mesh(ManifoldMesh topology) : half_edges_(std::move(topology.half_edges)), tags_(points().size(), 0) {
+  if (const int side = half_edges_.misfit(); side >= 0)
+    throw InputError("face " + std::to_string(half_edges_.face(side)) +
+                     " does not fit its neighbours in the half-edge mesh");
+  for (const int v : vertices()) {
+    const auto at = static_cast<std::size_t>(v);
+    if (topology.is_cone[at]) set(v, cone);
+    if (!is_sharp(topology.vertex_sharpness[at])) continue;
+    set(v, sharp);
+    sharp_vertices_.push_back({v, topology.vertex_sharpness[at]});
+  }
+  if (std::find(topology.has_limit.begin(), topology.has_limit.end(), 0) != topology.has_limit.end())
+    has_limit_ = std::move(topology.has_limit);
   set_edge_sharpness(topology);
 }
 
 void Mesh::set_edge_sharpness(const ManifoldMesh& topology) {
-  edge_sharpness_.resize(connectivity_.n_edges());
-  std::vector<SemiSharpEdges> around(points_.size(), SemiSharpEdges(topology.crease_method));
+  if (topology.sharp_edges.empty()) return;
+  for (const auto& [key, sharpness] : topology.sharp_edges)
+    for (const int end : ManifoldMesh::ends(key)) set(end, sharp_edge);
+  std::unordered_map<int, SemiSharpEdges> around;
   for (const int e : edges()) {
-    const Edge ends = edge(e);
-    const float sharpness = topology.edge_sharpness(ends.a, ends.b);
-    edge_sharpness_[static_cast<std::size_t>(e)] = {sharpness, 0, 0};
-    around[static_cast<std::size_t>(ends.a)].add(sharpness);
-    around[static_cast<std::size_t>(ends.b)].add(sharpness);
+    const int a = half_edges_.from(e), b = half_edges_.to(e);
+    if (!has_sharp_edge(a) || !has_sharp_edge(b)) continue;
+    const float sharpness = topology.edge_sharpness(a, b);
+    if (!is_sharp(sharpness)) continue;
+    sharp_edges_.push_back({e, sharpness, 0, 0});
+    for (const int end : {a, b}) around.try_emplace(end, topology.crease_method).first->second.add(sharpness);
   }
-  for (const int e : edges()) {
-    const Edge ends = edge(e);
-    edge_sharpness_[static_cast<std::size_t>(e)] = {ends.sharpness,
-                                                    around[static_cast<std::size_t>(ends.a)].decayed(ends.sharpness),
-                                                    around[static_cast<std::size_t>(ends.b)].decayed(ends.sharpness)};
+  for (SharpHalves& e : sharp_edges_) {
+    e.half_a = around.at(half_edges_.from(e.edge)).decayed(e.sharpness);
+    e.half_b = around.at(half_edges_.to(e.edge)).decayed(e.sharpness);
   }
 }
 
-/// The kernel gets every face with repeated vertices taken together; cut_to_manifold leaves at least three.
-void Mesh::build_half_edges() {
-  connectivity_.reserve(points_.size(), face_vertices_.size(), has_limit_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) connectivity_.new_vertex();
-  std::vector<OpenMesh::VertexHandle> handles;
-  for (const int f : faces()) {
-    handles.clear();
-    const std::span<const int> v = face(f);
-    for (std::size_t i = 0; i < v.size(); ++i)
-      if (v[i] != v[(i + 1) % v.size()]) handles.emplace_back(v[i]);
-    assert(handles.size() >= 3);
-    const OpenMesh::FaceHandle handle = connectivity_.add_face(handles.data(), handles.size());
-    if (!handle.is_valid())
-      throw InputError("face " + std::to_string(f) + " does not fit its neighbours in the half-edge mesh");
-    assert(handle.idx() == f);
-    for (std::size_t i = 0; i < v.size(); ++i) corner_at_[static_cast<std::size_t>(v[i])] = {f, static_cast<int>(i)};
-  }
+float Mesh::sharpness_of(int vertex) const {
+  return std::lower_bound(sharp_vertices_.begin(), sharp_vertices_.end(), vertex,
+                          [](const SharpVertex& known, int wanted) { return known.vertex < wanted; })
+      ->sharpness;
 }
 
 Mesh::Edge Mesh::edge(int edge) const {
-  const HalfEdge half = connectivity_.halfedge_handle(OpenMesh::EdgeHandle(edge), 0);
-  const auto& [sharpness, half_a, half_b] = edge_sharpness_[static_cast<std::size_t>(edge)];
-  return {connectivity_.from_vertex_handle(half).idx(), connectivity_.to_vertex_handle(half).idx(), sharpness, half_a,
-          half_b};
+  Edge result{half_edges_.from(edge), half_edges_.to(edge), 0, 0, 0};
+  if (!has_sharp_edge(result.a) || !has_sharp_edge(result.b)) return result;
+  const auto found = std::lower_bound(sharp_edges_.begin(), sharp_edges_.end(), edge,
+                                      [](const SharpHalves& known, int wanted) { return known.edge < wanted; });
+  if (found == sharp_edges_.end() || found->edge != edge) return result;
+  return {result.a, result.b, found->sharpness, found->half_a, found->half_b};
 }
 
-void Mesh::number_sides() {
-  face_sides_.resize(face_vertices_.size());
-  place_of_half_edge_.resize(connectivity_.n_halfedges());
-  for (const int f : faces()) {
-    const std::span<const int> v = face(f);
-    HalfEdge half = connectivity_.halfedge_handle(OpenMesh::FaceHandle(f));
-    std::size_t place = 0;
-    while (v[place] != connectivity_.from_vertex_handle(half).idx() ||
-           v[(place + 1) % v.size()] != connectivity_.to_vertex_handle(half).idx())
-      ++place;
-    for (std::size_t i = 0; i < v.size(); ++i, place = (place + 1) % v.size()) {
-      int& side = face_sides_[static_cast<std::size_t>(first_corner(f)) + place];
-      if (v[place] == v[(place + 1) % v.size()]) {
-        side = edge_count() + degenerate_side_count_++;
-      } else {
-        side = connectivity_.edge_handle(half).idx();
-        place_of_half_edge_[static_cast<std::size_t>(half.idx())] = static_cast<int>(place);
-        half = connectivity_.next_halfedge_handle(half);
-      }
-    }
-  }
+const std::vector<int>& Mesh::corners_at() const {
+  std::call_once(corners_found_, [&] {
+    corners_at_.assign(points().size(), -1);
+    for (int c = 0; c < half_edges_.side_count(); ++c) corners_at_[static_cast<std::size_t>(half_edges_.from(c))] = c;
+  });
+  return corners_at_;
 }
 
-/// The half-edge that leaves a corner along its side.
-Mesh::HalfEdge Mesh::half_edge(Corner corner) const {
-  const OpenMesh::VertexHandle from(vertex_at(corner));
-  const HalfEdge half = connectivity_.halfedge_handle(OpenMesh::EdgeHandle(side(corner)), 0);
-  return connectivity_.from_vertex_handle(half) == from ? half : connectivity_.opposite_halfedge_handle(half);
-}
-
-/// The corner at `vertex` of the face beside a half-edge; face -1 outside the boundary. Where the face repeats the
-/// vertex it is the last of the repeats if the half-edge leaves it, the first if the half-edge enters it.
-Mesh::Corner Mesh::corner_of(HalfEdge half_edge, int vertex) const {
-  const OpenMesh::FaceHandle handle = connectivity_.face_handle(half_edge);
-  if (!handle.is_valid()) return {-1, 0};
-  const int place = place_of_half_edge_[static_cast<std::size_t>(half_edge.idx())];
-  const bool leaves = connectivity_.from_vertex_handle(half_edge).idx() == vertex;
-  return {handle.idx(), leaves ? place : (place + 1) % face_size(handle.idx())};
-}
-
-/// Across the side that leaves the corner; face -1 at a boundary or a side between equal vertices.
-Mesh::Corner Mesh::next_clockwise(Corner corner) const {
-  if (repeats_next(corner)) return {-1, 0};
-  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(corner)), vertex_at(corner));
-}
-
-/// Across the side that enters the corner.
-Mesh::Corner Mesh::next_counter_clockwise(Corner corner) const {
-  const Corner last = previous(corner);
-  if (repeats_next(last)) return {-1, 0};
-  return corner_of(connectivity_.opposite_halfedge_handle(half_edge(last)), vertex_at(corner));
+Mesh::Corner Mesh::corner_at(int vertex) const {
+  const int corner = corners_at()[static_cast<std::size_t>(vertex)];
+  if (corner < 0) return {-1, 0};
+  return {half_edges_.face(corner), half_edges_.place(corner)};
 }
 
 /// The side that leaves a corner, as a spoke of the vertex at one of its ends.
-Ring::Spoke Mesh::spoke(Corner corner, int from) const {
-  if (repeats_next(corner)) return {from, side(corner), infinite_sharpness, infinite_sharpness, infinite_sharpness};
-  const Edge e = edge(side(corner));
-  if (e.a == from) return {e.b, side(corner), e.sharpness, e.half_a, e.half_b};
-  return {e.a, side(corner), e.sharpness, e.half_b, e.half_a};
+Ring::Spoke Mesh::spoke(int side, int from) const {
+  if (half_edges_.is_degenerate(side)) return {from, side, infinite_sharpness, infinite_sharpness, infinite_sharpness};
+  const int number = half_edges_.edge(side);
+  const Edge e = edge(number);
+  if (e.a == from) return {e.b, number, e.sharpness, e.half_a, e.half_b};
+  return {e.a, number, e.sharpness, e.half_b, e.half_a};
 }
 
-Ring Mesh::ring(Corner corner) const {
-  const auto is = [](Corner a, Corner b) { return a.face == b.face && a.place == b.place; };
-  Corner first = corner;
-  for (Corner before = next_clockwise(first); before.face >= 0; before = next_clockwise(first)) {
+Ring Mesh::ring(Corner corner) const { return ring_at(corner_number(corner)); }
+
+Ring Mesh::ring_at(int corner) const {
+  int first = corner;
+  for (int before = half_edges_.clockwise(first); before >= 0; before = half_edges_.clockwise(first)) {
     first = before;
-    if (is(first, corner)) break;
+    if (first == corner) break;
   }
 
   Ring ring;
-  ring.vertex = vertex_at(corner);
+  ring.vertex = half_edges_.from(corner);
   ring.sharpness = vertex_sharpness(ring.vertex);
   ring.cone = is_cone(ring.vertex);
   ring.closed = false;
-  for (Corner at = first; at.face >= 0;) {
+  for (int at = first; at >= 0;) {
     ring.faces.push_back(face_from(at));
     ring.spokes.push_back(spoke(at, ring.vertex));
-    const Corner after = next_counter_clockwise(at);
-    if (after.face < 0) ring.spokes.push_back(spoke(previous(at), ring.vertex));
-    ring.closed = after.face >= 0 && is(after, first);
+    const int after = half_edges_.counter_clockwise(at);
+    if (after < 0) ring.spokes.push_back(spoke(half_edges_.previous(at), ring.vertex));
+    ring.closed = after == first;
     if (ring.closed) break;
     at = after;
   }
@@ -154,31 +110,30 @@ Ring Mesh::ring(Corner corner) const {
 
 Neighbourhood Mesh::neighbourhood(Corner first, int radius) const {
   Neighbourhood result;
-  result.face = face_from(first);
-  std::vector<Corner> inner;
-  std::vector<int> seen;
+  result.face = face_from(corner_number(first));
+  std::vector<int> inner, seen;
   const int size = result.face.size();
   for (int i = 0; i < size; ++i) {
-    inner.push_back({first.face, (first.place + i) % size});
+    inner.push_back(corner_number({first.face, (first.place + i) % size}));
     seen.push_back(result.face.vertex(i));
   }
   for (std::size_t done = 0; radius > 0; --radius) {
     const std::size_t end = inner.size();
     for (; done < end; ++done) {
-      result.rings.push_back(ring(inner[done]));
+      result.rings.push_back(ring_at(inner[done]));
       if (radius == 1) continue;
       for (const FaceSides& f : result.rings.back().faces)
         for (int i = 0; i < f.size(); ++i) {
           if (std::find(seen.begin(), seen.end(), f.vertex(i)) != seen.end()) continue;
           seen.push_back(f.vertex(i));
-          inner.push_back(corner_at(f.vertex(i)));
+          inner.push_back(corners_at()[static_cast<std::size_t>(f.vertex(i))]);
         }
     }
   }
   return result;
 }
 
-TriangleMesh::TriangleMesh(const ManifoldMesh& topology, std::vector<Vec3> points) : Mesh(topology, std::move(points)) {
+TriangleMesh::TriangleMesh(ManifoldMesh topology) : Mesh(std::move(topology)) {
   for (const int f : faces())
     if (face_size(f) != 3)
       throw InputError("face " + std::to_string(f) + " has " + std::to_string(face_size(f)) +

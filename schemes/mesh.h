@@ -1,10 +1,11 @@
 #pragma once
 /// The mesh hierarchy of Mueller et al. 2003, section 5: an abstract mesh with its navigation; triangle and quad
-/// meshes; subdivision meshes (subdivision_mesh.h) derive from those. OpenMesh holds the half-edges.
-#include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
+/// meshes; subdivision meshes (subdivision_mesh.h) derive from those.
+#include <mutex>
 #include <span>
 #include <vector>
 
+#include "half_edges.h"
 #include "manifold.h"
 #include "ring.h"
 #include "scheme.h"
@@ -30,6 +31,29 @@ struct IndexRange {
   Iterator end() const { return {count}; }
 };
 
+/// The edges of half-edges, to iterate over: each by the lesser of its sides.
+struct EdgeRange {
+  struct Iterator {
+    const HalfEdges* half_edges;
+    int edge;
+    int operator*() const { return edge; }
+    Iterator& operator++() {
+      ++edge;
+      return skip();
+    }
+    Iterator& skip() {
+      while (edge < half_edges->side_count() && (half_edges->twin(edge) < edge || half_edges->is_degenerate(edge)))
+        ++edge;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+  };
+  const HalfEdges* half_edges;
+
+  Iterator begin() const { return Iterator{half_edges, 0}.skip(); }
+  Iterator end() const { return {half_edges, half_edges->side_count()}; }
+};
+
 /// A manifold mesh with sharpness. Vertices are cut vertices (see manifold.h), faces keep the input's numbers.
 class Mesh {
  public:
@@ -38,19 +62,25 @@ class Mesh {
   /// The split that faces of this mesh take.
   virtual FaceKind face_kind() const = 0;
 
-  int vertex_count() const { return static_cast<int>(points_.size()); }
-  int edge_count() const { return static_cast<int>(connectivity_.n_edges()); }
-  int face_count() const { return static_cast<int>(has_limit_.size()); }
+  int vertex_count() const { return static_cast<int>(points().size()); }
+  int edge_count() const { return half_edges_.edge_count(); }
+  int face_count() const { return polygons().face_count(); }
 
   IndexRange vertices() const { return {vertex_count()}; }
-  IndexRange edges() const { return {edge_count()}; }
+  /// Edges have the numbers of half-edges, not all of them (see HalfEdges::edge()).
+  EdgeRange edges() const { return {&half_edges_}; }
   IndexRange faces() const { return {face_count()}; }
 
-  const std::vector<Vec3>& points() const { return points_; }
-  const Vec3& point(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
+  const HalfEdges& half_edges() const { return half_edges_; }
+  const std::vector<Vec3>& points() const { return polygons().positions; }
+  const Vec3& point(int vertex) const { return points()[static_cast<std::size_t>(vertex)]; }
   /// True if the vertex keeps a tangent cone, see ControlMesh::cones.
-  bool is_cone(int vertex) const { return is_cone_[static_cast<std::size_t>(vertex)] != 0; }
-  float vertex_sharpness(int vertex) const { return vertex_sharpness_[static_cast<std::size_t>(vertex)]; }
+  bool is_cone(int vertex) const { return has(vertex, cone); }
+  float vertex_sharpness(int vertex) const { return has(vertex, sharp) ? sharpness_of(vertex) : 0; }
+  /// True of a vertex that is no cone, not sharp, and has no sharp edge.
+  bool is_plain(int vertex) const { return tags_[static_cast<std::size_t>(vertex)] == 0; }
+  /// True if one of the vertex's edges is sharp.
+  bool has_sharp_edge(int vertex) const { return has(vertex, sharp_edge); }
 
   /// An edge's two ends, its sharpness, and that of its halves at either end, one level finer.
   struct Edge {
@@ -60,23 +90,25 @@ class Mesh {
   Edge edge(int edge) const;
 
   /// A face's vertices in order (with the input's repeats).
-  std::span<const int> face(int face) const {
-    return {face_vertices_.data() + first_corner(face), static_cast<std::size_t>(face_size(face))};
-  }
-  int face_size(int face) const { return first_corner(face + 1) - first_corner(face); }
+  std::span<const int> face(int face) const { return polygons().face(face); }
+  int face_size(int face) const { return polygons().face_size(face); }
 
   /// The same with its sides, seen from its first corner. A view into the mesh.
-  FaceSides face_sides(int face) const { return face_from({face, 0}); }
+  FaceSides face_sides(int face) const {
+    const int first = half_edges_.first(face);
+    return FaceSides(face, polygons().face_vertices.data() + first, half_edges_.twins().data() + first, face_size(face),
+                     first);
+  }
 
   /// False for holes and for faces at a boundary that is not interpolated.
-  bool has_limit(int face) const { return has_limit_[static_cast<std::size_t>(face)] != 0; }
+  bool has_limit(int face) const { return has_limit_.empty() || has_limit_[static_cast<std::size_t>(face)] != 0; }
 
   /// A face and a place in its vertices.
   struct Corner {
     int face, place;
   };
   /// One corner at a vertex; face -1 if the vertex has no face.
-  Corner corner_at(int vertex) const { return corner_at_[static_cast<std::size_t>(vertex)]; }
+  Corner corner_at(int vertex) const;
 
   /// The ring of the vertex at a corner. It starts at the boundary if there is one. O(valence).
   Ring ring(Corner corner) const;
@@ -86,51 +118,39 @@ class Mesh {
   Neighbourhood neighbourhood(Corner corner, int radius) const;
 
  protected:
-  using HalfEdge = OpenMesh::HalfedgeHandle;
-
-  /// Throws InputError if a face does not suit the mesh.
-  Mesh(const ManifoldMesh& topology, std::vector<Vec3> points);
-
-  /// The number of the side that leaves a corner among sides between equal vertices; -1 if it is none.
-  int degenerate_side(Corner corner) const { return repeats_next(corner) ? side(corner) - edge_count() : -1; }
-  int degenerate_side_count() const { return degenerate_side_count_; }
-  const OpenMesh::PolyConnectivity& connectivity() const { return connectivity_; }
-  int side(Corner corner) const { return face_sides_[index(corner)]; }
+  /// Throws InputError if half-edges cannot hold a face.
+  explicit Mesh(ManifoldMesh topology);
 
  private:
-  void build_half_edges();
-  void number_sides();
-  HalfEdge half_edge(Corner corner) const;
-  int first_corner(int face) const { return face_offsets_[static_cast<std::size_t>(face)]; }
-  std::size_t index(Corner corner) const { return static_cast<std::size_t>(first_corner(corner.face) + corner.place); }
-  int vertex_at(Corner corner) const { return face_vertices_[index(corner)]; }
-  /// The corner before this one in its face.
-  Corner previous(Corner corner) const {
-    return {corner.face, (corner.place == 0 ? face_size(corner.face) : corner.place) - 1};
-  }
-  bool repeats_next(Corner corner) const { return side(corner) >= edge_count(); }
-  Corner next_clockwise(Corner corner) const;
-  Corner next_counter_clockwise(Corner corner) const;
-  /// The face seen from the corner.
-  FaceSides face_from(Corner corner) const {
-    const auto first = static_cast<std::size_t>(first_corner(corner.face));
-    return FaceSides(corner.face, &face_vertices_[first], &face_sides_[first], face_size(corner.face))
-        .turned(corner.place);
-  }
-  Ring::Spoke spoke(Corner side, int from) const;
-  void set_edge_sharpness(const ManifoldMesh& topology);
-  Corner corner_of(HalfEdge half_edge, int vertex) const;
+  enum Tag : unsigned char { cone = 1, sharp = 2, sharp_edge = 4 };
+  bool has(int vertex, Tag tag) const { return (tags_[static_cast<std::size_t>(vertex)] & tag) != 0; }
+  void set(int vertex, Tag tag) { tags_[static_cast<std::size_t>(vertex)] |= tag; }
 
-  OpenMesh::PolyConnectivity connectivity_;  ///< its faces have our numbers
-  std::vector<Vec3> points_;
-  std::vector<int> face_offsets_, face_vertices_;
-  std::vector<int> face_sides_;          ///< edges; from edge_count() on sides between equal vertices
-  std::vector<int> place_of_half_edge_;  ///< in its face
-  std::vector<float> vertex_sharpness_;
-  std::vector<std::array<float, 3>> edge_sharpness_;  ///< its own, then of its halves (see Edge)
-  std::vector<char> is_cone_, has_limit_;
-  std::vector<Corner> corner_at_;
-  int degenerate_side_count_ = 0;
+  const PolygonMesh& polygons() const { return half_edges_.mesh(); }
+  int corner_number(Corner corner) const { return half_edges_.first(corner.face) + corner.place; }
+  /// The face seen from a corner.
+  FaceSides face_from(int corner) const {
+    return face_sides(half_edges_.face(corner)).turned(half_edges_.place(corner));
+  }
+  Ring ring_at(int corner) const;
+  Ring::Spoke spoke(int side, int from) const;
+  float sharpness_of(int vertex) const;
+  void set_edge_sharpness(const ManifoldMesh& topology);
+  const std::vector<int>& corners_at() const;
+
+  /// Most vertices and edges are not sharp: those that are, are looked up if a vertex's tags say so.
+  struct SharpHalves {
+    int edge;
+    float sharpness, half_a, half_b;  ///< see Edge
+  };
+
+  HalfEdges half_edges_;
+  std::vector<unsigned char> tags_;          ///< by vertex
+  std::vector<SharpVertex> sharp_vertices_;  ///< by vertex in order
+  std::vector<SharpHalves> sharp_edges_;     ///< by edge in order
+  std::vector<char> has_limit_;              ///< none if all have one
+  mutable std::once_flag corners_found_;
+  mutable std::vector<int> corners_at_;  ///< one by vertex, -1 if there is none; found when first asked for
 };
 
 /// Triangles only.
@@ -143,7 +163,7 @@ class TriangleMesh : public Mesh {
 
  protected:
   /// Throws InputError that names the first face that is no triangle.
-  TriangleMesh(const ManifoldMesh& topology, std::vector<Vec3> points);
+  explicit TriangleMesh(ManifoldMesh topology);
 };
 
 /// Faces of any number of corners; quads after the first split.
@@ -155,7 +175,7 @@ class QuadMesh : public Mesh {
   static Vec3 chord_normal(const std::vector<Vec3>& limit_points);
 
  protected:
-  QuadMesh(const ManifoldMesh& topology, std::vector<Vec3> points) : Mesh(topology, std::move(points)) {}
+  explicit QuadMesh(ManifoldMesh topology) : Mesh(std::move(topology)) {}
 };
 
 }  // namespace shaolin

@@ -1,6 +1,7 @@
 #pragma once
 /// The topology around a vertex and around a face: what masks and sharpness rules are chosen by.
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace shaolin {
@@ -16,13 +17,19 @@ class FaceSides {
   FaceSides() = default;
   FaceSides(int id, const int* vertices, const int* sides, int size)
       : id_(id), size_(size), vertices_(vertices), sides_(sides) {}
+  /// Of half-edges numbered from `first_side` on, and their twins: an edge has the lesser number of its two.
+  FaceSides(int id, const int* vertices, const int* twins, int size, int first_side)
+      : id_(id), size_(size), first_side_(first_side), vertices_(vertices), sides_(twins) {}
 
   int id() const { return id_; }
   int size() const { return size_; }
 
   /// Of place i in [0, size), counted from the corner that the face is seen from.
   int vertex(int i) const { return vertices_[place(i)]; }
-  int side(int i) const { return sides_[place(i)]; }
+  int side(int i) const {
+    const int at = place(i);
+    return std::min(sides_[at], first_side_ + at);
+  }
   int last_vertex() const { return vertex(size_ - 1); }
   bool has_vertex(int wanted) const { return std::find(vertices_, vertices_ + size_, wanted) != vertices_ + size_; }
 
@@ -42,6 +49,7 @@ class FaceSides {
   int id_ = 0;
   int size_ = 0;
   int first_ = 0;
+  int first_side_ = std::numeric_limits<int>::max() / 2;  ///< above all
   const int* vertices_ = nullptr;
   const int* sides_ = nullptr;
 };

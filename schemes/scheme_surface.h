@@ -13,13 +13,13 @@ template <Scheme S>
 class SchemeSurface final : public LimitSurface {
  public:
   explicit SchemeSurface(ControlMesh control, const S& scheme = {})
-      : control_(std::move(control)), mesh_(control_, scheme) {}
+      : control_(std::make_shared<const ControlMesh>(std::move(control))), mesh_(control_, scheme) {}
 
-  int face_count() const override { return control_.face_count(); }
-  int sub_count(int face) const override { return splits_by_corner(face) ? control_.face_size(face) : 1; }
+  int face_count() const override { return control_->face_count(); }
+  int sub_count(int face) const override { return splits_by_corner(face) ? control_->face_size(face) : 1; }
   bool triangular() const override { return S::face_kind == FaceKind::triangle; }
   bool has_limit(int face) const override { return mesh_.has_limit(face); }
-  const ControlMesh& control_mesh() const override { return control_; }
+  const ControlMesh& control_mesh() const override { return *control_; }
 
   std::optional<LimitSample> evaluate(const SurfaceParameter& at) const override {
     check_range(at);
@@ -29,7 +29,7 @@ class SchemeSurface final : public LimitSurface {
       throw InputError("the limit at face " + std::to_string(at.face) +
                        " is not finite: its coordinates are too large, or the masks of the scheme do not converge; see "
                        "'shaolin scheme check'");
-    if (control_.is_collapsed(at.face)) sample.normal.setZero();  // rounding alone gave it a direction
+    if (control_->is_collapsed(at.face)) sample.normal.setZero();  // rounding alone gave it a direction
     return sample;
   }
 
@@ -40,7 +40,7 @@ class SchemeSurface final : public LimitSurface {
   }
 
   /// True for an n-gon of the quad split: its patches are those of its corners, half the size.
-  bool splits_by_corner(int face) const { return control_.face_size(face) != Domain<S::face_kind>::corner_count; }
+  bool splits_by_corner(int face) const { return control_->face_size(face) != Domain<S::face_kind>::corner_count; }
 
   const SubdivisionMesh<S>& mesh() const { return mesh_; }
 
@@ -58,7 +58,7 @@ class SchemeSurface final : public LimitSurface {
                        (triangular() ? "u, v >= 0 and u + v <= 1" : "u and v in [0, 1]"));
   }
 
-  ControlMesh control_;
+  std::shared_ptr<const ControlMesh> control_;  ///< the mesh's own, too, where nothing is cut
   SubdivisionMesh<S> mesh_;
 };
 

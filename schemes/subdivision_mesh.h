@@ -20,25 +20,30 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
  public:
   /// Level 0. Throws InputError if the mesh does not suit the scheme. O(size log size).
-  explicit SubdivisionMesh(const ControlMesh& control, const S& scheme = {})
-      : SubdivisionMesh(cut_to_manifold(control, basis_of(scheme) == Basis::linear), control.positions, nullptr,
-                        make_table({scheme, control.crease_method, control.triangle_subdivision}, control)) {}
+  explicit SubdivisionMesh(const std::shared_ptr<const ControlMesh>& control, const S& scheme = {})
+      : SubdivisionMesh(cut_to_manifold(control, basis_of(scheme) == Basis::linear), nullptr,
+                        make_table({scheme, control->crease_method, control->triangle_subdivision}, *control)) {}
+  explicit SubdivisionMesh(ControlMesh control, const S& scheme = {})
+      : SubdivisionMesh(std::make_shared<const ControlMesh>(std::move(control)), scheme) {}
 
   const Rules<S>& rules() const { return table_->rules(); }
 
   int level() const { return parent_ ? parent_->level() + 1 : 0; }
 
-  /// The next level, whole. The mesh must outlive it. Throws InputError where OpenMesh cannot hold the result: beside a
-  /// vertex of valence 2 a split triangle mesh has two edges between the same vertices. (Patches can.) O(size).
+  /// The next level, whole. The mesh must outlive it. Throws InputError where half-edges, which are paired by
+  /// their ends, cannot hold the result: beside a vertex of valence 2 a split triangle mesh has two edges between the
+  /// same vertices. (Patches can.) O(size).
   std::unique_ptr<SubdivisionMesh> refine() const;
 
   /// The coarser mesh, null at level 0; and navigation between both.
   const SubdivisionMesh* parent() const { return parent_; }
   int child_count(int face) const { return S::face_kind == FaceKind::triangle ? 4 : this->face_size(face); }
-  int child_face(int face, int k) const { return first_child_[static_cast<std::size_t>(face)] + k; }
+  int child_face(int face, int k) const {
+    return (S::face_kind == FaceKind::triangle ? 4 * face : this->half_edges().first(face)) + k;
+  }
   int parent_face(int face) const { return parent_face_[static_cast<std::size_t>(face)]; }
   int child_of_vertex(int vertex) const { return vertex; }
-  int child_of_edge(int edge) const { return this->vertex_count() + edge; }
+  int child_of_edge(int edge) const { return this->vertex_count() + side_number(edge); }
   int child_of_face(int face) const { return this->vertex_count() + this->edge_count() + face; }  ///< quad split only
 
   /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
@@ -80,15 +85,8 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   }
 
  private:
-  SubdivisionMesh(const ManifoldMesh& topology, const std::vector<Vec3>& points, const SubdivisionMesh* parent,
-                  std::shared_ptr<ConfigurationTable<S>> table)
-      : Base(topology, parent ? points : of_cut_vertices(topology, points)), table_(std::move(table)), parent_(parent) {
-    int next = 0;
-    for (const int f : this->faces()) {
-      first_child_.push_back(next);
-      next += child_count(f);
-    }
-  }
+  SubdivisionMesh(ManifoldMesh topology, const SubdivisionMesh* parent, std::shared_ptr<ConfigurationTable<S>> table)
+      : Base(std::move(topology)), table_(std::move(table)), parent_(parent) {}
 
   static std::shared_ptr<ConfigurationTable<S>> make_table(Rules<S> rules, const ControlMesh& control) {
     std::vector<int> faces_at(control.positions.size(), 0);
@@ -100,15 +98,35 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
     return std::make_shared<ConfigurationTable<S>>(std::move(rules), is_convex);
   }
 
-  static std::vector<Vec3> of_cut_vertices(const ManifoldMesh& topology, const std::vector<Vec3>& points) {
-    std::vector<Vec3> result;
-    for (const int origin : topology.origin) result.push_back(points[static_cast<std::size_t>(origin)]);
-    return result;
+  /// Edges are numbered among themselves, and so are sides between equal vertices, when a number is first asked for.
+  int side_number(int side) const {
+    std::call_once(sides_numbered_, [&] {
+      const HalfEdges& half_edges = this->half_edges();
+      int edges = 0, degenerate = 0;
+      side_numbers_.resize(static_cast<std::size_t>(half_edges.side_count()));
+      for (int s = 0; s < half_edges.side_count(); ++s)
+        if (half_edges.edge(s) == s)
+          side_numbers_[static_cast<std::size_t>(s)] = half_edges.is_degenerate(s) ? degenerate++ : edges++;
+    });
+    return side_numbers_[static_cast<std::size_t>(side)];
   }
-
-  int child_of_side(int face, int place) const;
-  int child_of_degenerate_side(int side) const {
-    return child_of_face(S::face_kind == FaceKind::quad ? this->face_count() : 0) + side;
+  /// The new vertex on a side; sides between equal vertices have theirs behind all others.
+  int child_of_side(int side) const {
+    return this->half_edges().is_degenerate(side) ? first_behind_others() + side_number(side)
+                                                  : child_of_edge(this->half_edges().edge(side));
+  }
+  int first_behind_others() const { return child_of_face(S::face_kind == FaceKind::quad ? this->face_count() : 0); }
+  /// Of the next level.
+  std::size_t refined_vertex_count() const {
+    return static_cast<std::size_t>(first_behind_others() + this->half_edges().degenerate_side_count());
+  }
+  /// Calls visit(side, the vertex at both its ends).
+  template <class Visit>
+  void for_each_degenerate_side(Visit visit) const {
+    const HalfEdges& half_edges = this->half_edges();
+    if (half_edges.degenerate_side_count() == 0) return;
+    for (int s = 0; s < half_edges.side_count(); ++s)
+      if (half_edges.is_degenerate(s)) visit(s, half_edges.from(s));
   }
   std::vector<Vec3> refined_points() const;
   std::vector<Vec3> refined_points_by_stencils() const;
@@ -126,17 +144,11 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
   std::shared_ptr<ConfigurationTable<S>> table_;
   mutable std::once_flag limits_made_;
   mutable std::unique_ptr<KeptLimits> limits_;
+  mutable std::once_flag sides_numbered_;
+  mutable std::vector<int> side_numbers_;
   const SubdivisionMesh* parent_;
-  std::vector<int> first_child_, parent_face_;
+  std::vector<int> parent_face_;
 };
-
-/// The new vertex on a face's side; sides between equal vertices have theirs behind all others.
-template <Scheme S>
-int SubdivisionMesh<S>::child_of_side(int face, int place) const {
-  if (const int degenerate = this->degenerate_side({face, place}); degenerate >= 0)
-    return child_of_degenerate_side(degenerate);
-  return child_of_edge(this->side({face, place}));
-}
 
 /// Radius 2. Rings are made once, for every stencil reads several.
 template <Scheme S>
@@ -147,23 +159,21 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points_by_stencils() const {
   const RingStencils stencils(rules(), [&](int vertex) { return &rings[static_cast<std::size_t>(vertex)]; });
 
   const Vec3* points = this->points().data();
-  std::vector<Vec3> result(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())));
+  std::vector<Vec3> result(refined_vertex_count());
   for (const int v : this->vertices()) {
     const Ring& ring = rings[static_cast<std::size_t>(v)];
     result[static_cast<std::size_t>(v)] = ring.faces.empty() ? this->point(v) : stencils.vertex(ring).of(points);
     for (std::size_t i = 0; i < ring.spokes.size(); ++i) {
       const int e = ring.spokes[i].edge;
-      if (e >= this->edge_count() || this->edge(e).a != v) continue;
+      if (this->half_edges().from(e) != v || this->half_edges().is_degenerate(e)) continue;
       result[static_cast<std::size_t>(child_of_edge(e))] = stencils.edge(ring, i).of(points);
     }
   }
-  for (const int f : this->faces()) {
-    if (S::face_kind == FaceKind::quad)
+  if (S::face_kind == FaceKind::quad)
+    for (const int f : this->faces())
       result[static_cast<std::size_t>(child_of_face(f))] = stencils.face(this->face_sides(f)).of(points);
-    for (int i = 0; i < this->face_size(f); ++i)
-      if (this->degenerate_side({f, i}) >= 0)
-        result[static_cast<std::size_t>(child_of_side(f, i))] = this->point(this->face(f)[static_cast<std::size_t>(i)]);
-  }
+  for_each_degenerate_side(
+      [&](int side, int v) { result[static_cast<std::size_t>(child_of_side(side))] = this->point(v); });
   return result;
 }
 
@@ -177,7 +187,7 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
         face_point({this->points().data(), v.data(), static_cast<int>(v.size())});
   }
 
-  std::vector<Vec3> result(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())));
+  std::vector<Vec3> result(refined_vertex_count());
   for (const int v : this->vertices()) {
     result[static_cast<std::size_t>(v)] = this->point(v);
     if (this->corner_at(v).face < 0) continue;
@@ -192,26 +202,24 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
                      {this->points().data(), ends.data(), n}, {face_points.data(), faces.data(), ring.closed ? n : 0});
   }
 
-  for (const int f : this->faces()) {
-    if (S::face_kind == FaceKind::quad)
+  if (S::face_kind == FaceKind::quad)
+    for (const int f : this->faces())
       result[static_cast<std::size_t>(child_of_face(f))] = face_points[static_cast<std::size_t>(f)];
-    for (int i = 0; i < this->face_size(f); ++i)
-      if (this->degenerate_side({f, i}) >= 0)
-        result[static_cast<std::size_t>(child_of_side(f, i))] = this->point(this->face(f)[static_cast<std::size_t>(i)]);
-  }
+  for_each_degenerate_side(
+      [&](int side, int v) { result[static_cast<std::size_t>(child_of_side(side))] = this->point(v); });
 
+  const HalfEdges& half_edges = this->half_edges();
   for (const int e : this->edges()) {
     const auto edge = this->edge(e);
-    const auto half = this->connectivity().halfedge_handle(OpenMesh::EdgeHandle(e), 0);
     int triangles = 0;
-    const auto side = [&](OpenMesh::HalfedgeHandle h) -> const Vec3* {
-      const auto handle = this->connectivity().face_handle(h);
-      if (!handle.is_valid()) return nullptr;
-      triangles += this->face_size(handle.idx()) == 3;
-      if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(handle.idx())];
-      return &this->point(this->connectivity().to_vertex_handle(this->connectivity().next_halfedge_handle(h)).idx());
+    const auto across = [&](int side) -> const Vec3* {
+      const int face = half_edges.face(side);
+      triangles += this->face_size(face) == 3;
+      if (S::face_kind == FaceKind::quad) return &face_points[static_cast<std::size_t>(face)];
+      return &this->point(half_edges.from(half_edges.previous(side)));
     };
-    const Vec3 *left = side(half), *right = side(this->connectivity().opposite_halfedge_handle(half));
+    const int twin = half_edges.twin(e);
+    const Vec3 *left = across(e), *right = twin == e ? nullptr : across(twin);
     result[static_cast<std::size_t>(child_of_edge(e))] =
         edge_point(rules().edge(triangles), edge_crease_share(edge.sharpness, edge.half_a, edge.half_b),
                    this->point(edge.a), this->point(edge.b), left, right);
@@ -221,19 +229,17 @@ std::vector<Vec3> SubdivisionMesh<S>::refined_points() const {
 
 template <Scheme S>
 ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
-  ManifoldMesh next;
-  next.crease_method = rules().creases;
-  next.face_offsets = {0};
+  PolygonMesh polygons;
+  std::vector<char> has_limit;
   const auto add = [&](int face, std::initializer_list<int> corners) {
-    next.face_vertices.insert(next.face_vertices.end(), corners);
-    next.face_offsets.push_back(static_cast<int>(next.face_vertices.size()));
-    next.has_limit.push_back(this->has_limit(face));
+    polygons.add_face({corners.begin(), corners.size()});
+    has_limit.push_back(this->has_limit(face));
   };
   for (const int f : this->faces()) {
     const std::span<const int> v = this->face(f);
     const int n = static_cast<int>(v.size());
     std::vector<int> side;
-    for (int i = 0; i < n; ++i) side.push_back(child_of_side(f, i));
+    for (int i = 0; i < n; ++i) side.push_back(child_of_side(this->half_edges().first(f) + i));
     if (S::face_kind == FaceKind::triangle) {
       add(f, {v[0], side[0], side[2]});
       add(f, {side[0], v[1], side[1]});
@@ -250,13 +256,17 @@ ManifoldMesh SubdivisionMesh<S>::refined_topology() const {
       add(f, {quad[0], quad[1], quad[2], quad[3]});
     }
   }
+  polygons.positions = refined_points();
+  ManifoldMesh next(HalfEdges(std::make_shared<const PolygonMesh>(std::move(polygons))));
+  next.has_limit = std::move(has_limit);
+  next.crease_method = rules().creases;
   add_sharpness(next);
   return next;
 }
 
 template <Scheme S>
 void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
-  next.vertex_sharpness.assign(static_cast<std::size_t>(child_of_degenerate_side(this->degenerate_side_count())), 0);
+  next.vertex_sharpness.assign(refined_vertex_count(), 0);
   for (const int v : this->vertices())
     next.vertex_sharpness[static_cast<std::size_t>(v)] = decayed(this->vertex_sharpness(v));
   next.is_cone.assign(next.vertex_sharpness.size(), 0);
@@ -270,18 +280,16 @@ void SubdivisionMesh<S>::add_sharpness(ManifoldMesh& next) const {
     set(edge.b, child_of_edge(e), edge.half_b);
   }
   // An edge between equal vertices is a point: its new vertex stays there, and both its halves are sharp.
-  for (const int f : this->faces())
-    for (int i = 0; i < this->face_size(f); ++i)
-      if (this->degenerate_side({f, i}) >= 0) {
-        const int middle = child_of_side(f, i);
-        next.vertex_sharpness[static_cast<std::size_t>(middle)] = infinite_sharpness;
-        set(this->face(f)[static_cast<std::size_t>(i)], middle, infinite_sharpness);
-      }
+  for_each_degenerate_side([&](int side, int v) {
+    const int middle = child_of_side(side);
+    next.vertex_sharpness[static_cast<std::size_t>(middle)] = infinite_sharpness;
+    set(v, middle, infinite_sharpness);
+  });
 }
 
 template <Scheme S>
 std::unique_ptr<SubdivisionMesh<S>> SubdivisionMesh<S>::refine() const {
-  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), refined_points(), this, table_));
+  std::unique_ptr<SubdivisionMesh> next(new SubdivisionMesh(refined_topology(), this, table_));
   for (const int f : this->faces())
     for (int k = 0; k < child_count(f); ++k) next->parent_face_.push_back(f);
   return next;

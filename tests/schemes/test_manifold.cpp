@@ -22,6 +22,10 @@ ControlMesh faces_only(const std::vector<std::vector<int>>& faces) {
   return mesh_of(points, faces);
 }
 
+ManifoldMesh cut_of(const ControlMesh& mesh) { return cut_to_manifold(std::make_shared<const ControlMesh>(mesh)); }
+
+const std::vector<int>& vertices_of(const ManifoldMesh& cut) { return cut.half_edges.mesh().face_vertices; }
+
 /// The number of cut vertices that each input vertex became.
 std::vector<int> pieces(const ControlMesh& input, const ManifoldMesh& cut) {
   std::vector<int> result(input.positions.size(), 0);
@@ -32,10 +36,11 @@ std::vector<int> pieces(const ControlMesh& input, const ManifoldMesh& cut) {
 /// Faces keep their numbers and corners, and all fit into half-edges.
 template <Scheme S>
 void check_holds(const ControlMesh& input) {
-  const ManifoldMesh cut = cut_to_manifold(input);
-  REQUIRE(cut.face_offsets == input.face_offsets);
+  const ManifoldMesh cut = cut_of(input);
+  REQUIRE(cut.half_edges.mesh().face_offsets == input.face_offsets);
+  CHECK(cut.half_edges.misfit() == -1);
   for (std::size_t i = 0; i < input.face_vertices.size(); ++i)
-    CHECK(cut.origin[static_cast<std::size_t>(cut.face_vertices[i])] == input.face_vertices[i]);
+    CHECK(cut.origin[static_cast<std::size_t>(vertices_of(cut)[i])] == input.face_vertices[i]);
   const SubdivisionMesh<S> mesh(input);
   for (const int v : mesh.vertices())
     if (mesh.corner_at(v).face >= 0) CHECK_FALSE(mesh.ring(mesh.corner_at(v)).faces.empty());
@@ -47,23 +52,24 @@ constexpr float infinite = infinite_sharpness;
 
 TEMPLATE_TEST_CASE("A manifold mesh stays whole", "[schemes][manifold]", Loop, CatmullClark) {
   for (const ControlMesh& mesh : {poles(TestType::name, 5), sheet(TestType::name, 3, 2), torus(TestType::name, 4, 4)}) {
-    const ManifoldMesh cut = cut_to_manifold(mesh);
+    const ManifoldMesh cut = cut_of(mesh);
     CHECK(cut.cut_edges == 0);
     CHECK(cut.cut_vertices == 0);
+    CHECK(cut.half_edges.is_manifold());
     CHECK(cut.origin.size() == mesh.positions.size());
-    CHECK(cut.face_vertices == mesh.face_vertices);
+    CHECK(vertices_of(cut) == mesh.face_vertices);
     check_holds<TestType>(mesh);
   }
 }
 
 TEST_CASE("Three faces at an edge fall apart along it", "[schemes][manifold]") {
   const ControlMesh mesh = faces_only({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 1);
   CHECK(cut.cut_vertices == 2);
   CHECK(pieces(mesh, cut) == std::vector{3, 3, 1, 1, 1});
   for (const std::size_t corner : {0u, 3u, 6u}) {
-    const int a = cut.face_vertices[corner], b = cut.face_vertices[corner + 1];
+    const int a = vertices_of(cut)[corner], b = vertices_of(cut)[corner + 1];
     CHECK(cut.edge_sharpness(a, b) == infinite);
     CHECK(cut.vertex_sharpness[static_cast<std::size_t>(a)] == infinite);
     CHECK(cut.vertex_sharpness[static_cast<std::size_t>(b)] == infinite);
@@ -75,11 +81,11 @@ TEST_CASE("A bow-tie is cut at its knot, which is a corner in every boundary mod
   ControlMesh mesh = faces_only({{0, 1, 2}, {0, 3, 4}});
   for (const auto mode : {BoundaryInterpolation::edge_and_corner, BoundaryInterpolation::edge_only}) {
     mesh.boundary = mode;
-    const ManifoldMesh cut = cut_to_manifold(mesh);
+    const ManifoldMesh cut = cut_of(mesh);
     CHECK(cut.cut_edges == 0);
     CHECK(cut.cut_vertices == 1);
     CHECK(pieces(mesh, cut) == std::vector{2, 1, 1, 1, 1});
-    CHECK(cut.face_vertices == std::vector{0, 1, 2, 5, 3, 4});
+    CHECK(vertices_of(cut) == std::vector{0, 1, 2, 5, 3, 4});
     CHECK(cut.vertex_sharpness[0] == infinite);
     CHECK(cut.vertex_sharpness[5] == infinite);
     CHECK(cut.vertex_sharpness[1] == (mode == BoundaryInterpolation::edge_only ? 0 : infinite));
@@ -90,7 +96,7 @@ TEST_CASE("A bow-tie is cut at its knot, which is a corner in every boundary mod
 TEST_CASE("Two closed bodies that touch in a vertex come apart there", "[schemes][manifold]") {
   const ControlMesh mesh =
       faces_only({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {6, 5, 4}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 0);
   CHECK(pieces(mesh, cut) == std::vector{2, 1, 1, 1, 1, 1, 1});
   CHECK(cut.vertex_sharpness == std::vector<float>{infinite, 0, 0, 0, 0, 0, 0, infinite});
@@ -100,7 +106,7 @@ TEST_CASE("Two closed bodies that touch in a vertex come apart there", "[schemes
 
 TEST_CASE("Neighbours of opposite winding are cut apart", "[schemes][manifold]") {
   const ControlMesh mesh = faces_only({{0, 1, 2}, {0, 1, 3}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 1);
   CHECK(pieces(mesh, cut) == std::vector{2, 2, 1, 1});
   check_holds<Loop>(mesh);
@@ -111,7 +117,7 @@ TEST_CASE("A cut is no boundary: beside it faces keep their limit in every bound
   ControlMesh mesh = sheet("catmark", 4, 4);
   std::reverse(mesh.face_vertices.begin() + 20, mesh.face_vertices.begin() + 24);
   mesh.boundary = BoundaryInterpolation::none;
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 4);
   CHECK(cut.cut_vertices == 4);
   CHECK(cut.origin.size() == 29);
@@ -132,7 +138,7 @@ TEST_CASE("Fins along a crease leave the vertices between smooth along it", "[sc
       faces.push_back({j, j + 1, outer + 1, outer});
     }
   const ControlMesh mesh = faces_only(faces);
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 2);
   CHECK(cut.cut_vertices == 3);
   CHECK(pieces(mesh, cut) == std::vector{3, 3, 3, 1, 1, 1, 1, 1, 1, 1, 1, 1});
@@ -145,7 +151,7 @@ TEST_CASE("Fins along a crease leave the vertices between smooth along it", "[sc
 
 TEST_CASE("A face given twice is cut off from itself", "[schemes][manifold]") {
   const ControlMesh mesh = faces_only({{0, 1, 2}, {0, 1, 2}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 3);
   CHECK(pieces(mesh, cut) == std::vector{2, 2, 2});
   check_holds<Loop>(mesh);
@@ -153,10 +159,10 @@ TEST_CASE("A face given twice is cut off from itself", "[schemes][manifold]") {
 
 TEST_CASE("A vertex repeated in a row is one vertex with a sharp edge of no length", "[schemes][manifold]") {
   const ControlMesh mesh = faces_only({{0, 1, 1, 2}, {2, 1, 3, 4}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 1);
   CHECK(cut.cut_vertices == 0);
-  CHECK(cut.face_vertices == mesh.face_vertices);
+  CHECK(vertices_of(cut) == mesh.face_vertices);
   CHECK(cut.edge_sharpness(1, 1) == infinite);
   CHECK(cut.edge_sharpness(1, 2) == 0);
   CHECK(cut.has_limit == std::vector<char>{1, 1});
@@ -166,7 +172,7 @@ TEST_CASE("A vertex repeated in a row is one vertex with a sharp edge of no leng
 TEST_CASE("A vertex repeated across a face is cut; a face without three steps keeps its corners apart",
           "[schemes][manifold]") {
   const ControlMesh mesh = faces_only({{0, 1, 0, 2}, {3, 4, 4}, {5, 6, 7}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 4);  // 0-1, 0-2 and 3-4, each with one face twice, and 4-4
   CHECK(pieces(mesh, cut) == std::vector{2, 1, 1, 1, 2, 1, 1, 1});
   CHECK(cut.has_limit == std::vector<char>{1, 1, 1});
@@ -176,7 +182,7 @@ TEST_CASE("A vertex repeated across a face is cut; a face without three steps ke
 TEST_CASE("A face that its neighbours bring back to a vertex is cut off", "[schemes][manifold]") {
   // Edge 0-1 is folded within the first face, and the second closes the fan of its two corners at 1.
   const ControlMesh mesh = faces_only({{0, 1, 3, 2, 1}, {1, 2, 3}});
-  const ManifoldMesh cut = cut_to_manifold(mesh);
+  const ManifoldMesh cut = cut_of(mesh);
   CHECK(cut.cut_edges == 4);
   CHECK(pieces(mesh, cut) == std::vector{1, 3, 2, 2});
   check_holds<CatmullClark>(mesh);

@@ -86,6 +86,12 @@ double distance_from_oracle(const ControlMesh& mesh, const Hits& hits) {
   return worst / oracle.diagonal();
 }
 
+/// What malloc has given out, in its heap and in mappings of their own.
+double heap_bytes() {
+  const auto info = mallinfo2();
+  return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+}
+
 using MakeScene = std::function<Scene()>;
 
 /// Everything but reading; sets `fault` in place of timing if two threads answer otherwise than one.
@@ -111,12 +117,12 @@ void measure(const MakeScene& make, const ScalingOptions& options, const Control
   for (int run = 0; run < options.runs; ++run)
     for (const int threads : {1, 2}) {
       malloc_trim(0);
-      const std::size_t heap = mallinfo2().uordblks;
+      const double heap = heap_bytes();
       std::optional<Scene> scene;
       const double build = seconds([&] { scene.emplace(make()); });
       if (threads == 1) {
         result.build.push_back(build);
-        result.bytes.push_back(static_cast<double>(mallinfo2().uordblks - heap));
+        result.bytes.push_back(heap_bytes() - heap);
       }
       const auto trace = [&] { hits_of(*scene, rays, threads); };
       result.cold[static_cast<std::size_t>(threads - 1)].push_back(seconds(trace));
