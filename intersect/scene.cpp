@@ -58,6 +58,28 @@ void check_radius(double radius) {
 
 }  // namespace
 
+namespace {
+
+/// So many answers, none made. What is large comes from the system page by page, cleared as each is first written to:
+/// that is done by all threads before the one that constructs comes by. (Of a picture's closest hits it took a fifth of
+/// the time.)
+template <class Answer>
+std::vector<Answer> room_for(std::size_t count) {
+  constexpr std::size_t page = 4096, large = 256 * page;
+  std::vector<Answer> answers;
+  answers.reserve(count);
+  if (const std::size_t bytes = count * sizeof(Answer); bytes > large) {
+    auto* const storage = reinterpret_cast<char*>(answers.data());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes / page, 64), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) storage[i * page] = 0;
+    });
+  }
+  answers.resize(count);
+  return answers;
+}
+
+}  // namespace
+
 class Scene::Implementation {
  public:
   explicit Implementation(std::vector<Instance> instances);
@@ -83,7 +105,7 @@ class Scene::Implementation {
       }
     }
     const std::vector<std::uint32_t> order = coherent_order(rays, bounds_);
-    std::vector<Answer> answers(rays.size());
+    std::vector<Answer> answers = room_for<Answer>(rays.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), grain), [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {
         const std::uint32_t ray = order[i];

@@ -77,6 +77,21 @@ TEST_CASE("The order of a stream takes each ray once, and brings together what i
   std::iota(all.begin(), all.end(), 0u);
   CHECK(order == all);
 
+  // A picture, line by line, keeps its order; the same rays shuffled do not.
+  std::vector<Ray> picture;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) picture.push_back({{0.5, 0.5, 3}, {(x - 19.5) / 50, (y - 19.5) / 50, -2.5}});
+  const auto is_kept = [&] {
+    const std::vector<std::uint32_t> kept = coherent_order(picture, box);
+    return std::is_sorted(kept.begin(), kept.end());
+  };
+  CHECK(is_kept());
+  Random random(7);
+  for (std::size_t i = picture.size() - 1; i > 0; --i)
+    std::swap(picture[i], picture[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
+  CHECK_FALSE(is_kept());
+  CHECK(coherent_order({}, box).empty());
+
   // Numbers of all sizes have some place.
   constexpr double huge = std::numeric_limits<double>::max();
   const std::vector<Ray> odd{{{huge, -huge, huge}, {-huge, huge, 1e-300}, -huge, huge}, {{0.5, 0.5, 0.5}, {1, 0, 0}}};
