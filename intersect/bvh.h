@@ -120,7 +120,7 @@ void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
         leads_on = true;
         next = take();
         Entry* const first = top;
-        while (met != 0) {
+        while (met != 0) {  // NOLINT(bugprone-infinite-loop): take() changes it
           Entry farther = take();
           if (farther.distance < next.distance) std::swap(farther, next);
           Entry* at = top++;

@@ -88,7 +88,7 @@ class Scene::Implementation {
   Answer counted(const Ray& ray, Answer (Implementation::*query)(const Ray&, RayCounters&) const) const {
     check(ray);
     Statistics& local = own_counters();
-    const Answer answer = (this->*query)(ray, local);
+    Answer answer = (this->*query)(ray, local);
     ++local.rays;
     local.hits += is_hit(answer);
     return answer;
@@ -140,7 +140,7 @@ class Scene::Implementation {
     check(p);
     check_radius(radius);
     Statistics& local = own_counters();
-    const std::optional<ClosestPoint> answer = closest_point(p, radius, local);
+    std::optional<ClosestPoint> answer = closest_point(p, radius, local);
     ++local.points;
     return answer;
   }

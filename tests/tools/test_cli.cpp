@@ -95,6 +95,17 @@ TEST_CASE("usage errors exit with 2 and write nothing", "[tools][cli]") {
   CHECK(folder.list().empty());
 }
 
+TEST_CASE("a word that no command knows is named, whatever else is missing", "[tools][cli]") {
+  const Folder folder;
+  const std::string model = data_file("rook.obj").string();
+  for (const char* command : {"query", "overlap", "sweep", "inside", "render"}) {
+    const Outcome outcome = folder.run({command, model, "--wrong"});
+    INFO(command << ": " << outcome.text);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.text.find("--wrong") != std::string::npos);
+  }
+}
+
 TEST_CASE("an output that is another output's file, or an input's, is a usage error", "[tools][cli]") {
   const Folder folder;
   const std::string model = folder.write("cube.obj", cube_text), image = folder / "image",

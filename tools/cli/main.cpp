@@ -3,6 +3,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "schemes/errors.h"
 #include "tools/bench/bench.h"
@@ -72,6 +74,12 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    // A word that no command knows says more than what is missing then, which is looked for before.
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (error.get_exit_code() != 0 && !unknown.empty()) {
+      app.exit(CLI::ExtrasError(unknown));
+      return exit_usage;
+    }
     return app.exit(error) == 0 ? exit_done : exit_usage;  // --help and --version arrive here too, with status 0
   }
   return run(command);
