@@ -25,8 +25,8 @@ SceneBox EightBoxes::bound() const {
   return all;
 }
 
-/// (Rounding to the nearest float moves a number by 2^-24 of it at most, or by 2^-150: what it is moved by before covers
-/// that. So it takes no branches.)
+/// (Rounding to the nearest float moves a number by 2^-24 of it at most, or by 2^-150: what it is moved by before
+/// covers that. So it takes no branches.)
 SceneBox::SceneBox(const Box& box, const BoxSpace& space) {
   const Vec3 lower = space(box.lower), upper = space(box.upper);
   const auto margin = [](double bound) { return (0x1p-22 + 0x1.1p-24) * std::abs(bound) + 0x1p-149; };
