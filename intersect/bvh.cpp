@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace shaolin {
 
@@ -26,8 +27,13 @@ struct Bounds {
     side[3] = side[7] = std::bit_cast<float>(number + first_normal);
   }
 
-  void add(const Bounds& other) { larger(Eight(side.data()), Eight(other.side.data())).store(side.data()); }
-  float twice_centre(std::size_t axis) const { return side[axis + 4] - side[axis]; }
+  /// (What is undefined in the other adds nothing.)
+  void add(const Bounds& other) { larger(Eight(other.side.data()), Eight(side.data())).store(side.data()); }
+  /// 0 of a box that goes from one infinity to the other.
+  float twice_centre(std::size_t axis) const {
+    const float sum = side[axis + 4] - side[axis];
+    return std::isnan(sum) ? 0 : sum;
+  }
   float extent(std::size_t axis) const { return side[axis + 4] + side[axis]; }
   float half_area() const { return extent(0) * extent(1) + extent(1) * extent(2) + extent(2) * extent(0); }
   std::int32_t number() const { return std::bit_cast<std::int32_t>(side[3]) - first_normal; }
@@ -159,7 +165,8 @@ struct Bvh::Builder {
     if (whole.size() <= most_in_order) return split_in_order(whole, axis);
     const float first = -centres.side[axis], scale = bin_count / length;
     const auto bin_of = [&](const Bounds& item) {
-      return std::min(bin_count - 1, static_cast<int>((item.twice_centre(axis) - first) * scale));
+      const float bin = (item.twice_centre(axis) - first) * scale;
+      return bin > 0 ? static_cast<int>(std::min<float>(bin, bin_count - 1)) : 0;
     };
     const std::optional<Border> border = cheapest_border(whole, bin_of);
     if (!border) return halves(whole);
@@ -261,10 +268,12 @@ Bvh::Bvh(const std::vector<Box>& boxes) : space_(finite_bounds(boxes)) {
   if (boxes.empty()) return;
   Builder builder{{}, nodes_};
   builder.items.reserve(boxes.size());
-  for (const Box& box : boxes) {
-    builder.items.emplace_back(SceneBox(box, space_), static_cast<std::int32_t>(builder.items.size()));
-    bounds_.add(box);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if ((boxes[i].lower.array() > boxes[i].upper.array()).any()) continue;
+    builder.items.emplace_back(SceneBox(boxes[i], space_), static_cast<std::int32_t>(i));
+    bounds_.add(boxes[i]);
   }
+  if (builder.items.empty()) return;
   depth_ = builder.build();
   nodes_.shrink_to_fit();
   middle_ = bounds_.centre();

@@ -13,7 +13,7 @@ namespace shaolin {
 class Bvh {
  public:
   Bvh() = default;
-  /// Surface-area heuristic over 16 bins of centroids (Wald 2007). Deterministic. O(n log n).
+  /// Surface-area heuristic over 16 bins of centroids (Wald 2007); empty boxes are left out. Deterministic. O(n log n).
   explicit Bvh(const std::vector<Box>& boxes);
 
   /// True if the ray's whole line passes by the bounds: asked before all else, for it needs neither a root nor a

@@ -231,4 +231,19 @@ TEST_CASE("Traversal stops when told, and leaves out what a shrinking far exclud
   CHECK(visits == 3);
 }
 
+TEST_CASE("An empty box, or one without end, hides no other", "[intersect][bvh]") {
+  for (const bool is_empty : {true, false}) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < 50; ++i) boxes.push_back({Vec3(i, 0, 0), Vec3(i + 0.5, 1, 1)});
+    boxes[7] = is_empty ? Box() : Box{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
+    const Bvh bvh(boxes);
+    for (int i = 0; i < 50; ++i) {
+      CAPTURE(is_empty, i);
+      const std::set<int> met = visited(bvh, TraversalRay({{i + 0.25, 0.5, 5}, {0, 0, -1}, 0, 100}), 100);
+      CHECK((met.count(i) == 1) == !(is_empty && i == 7));
+    }
+  }
+  CHECK(visited(Bvh({Box(), Box()}), TraversalRay({{0, 0, 5}, {0, 0, -1}, 0, 100}), 100).empty());
+}
+
 }  // namespace shaolin
