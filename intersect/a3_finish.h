@@ -37,11 +37,13 @@ class A3Finish {
   using Found = ChordHit;
 
   template <Query query>
-  std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
+  bool search(const StartPatch& start, const Approach& approach, TreeTotals& totals,
+              std::optional<Found>& found) const {
     // Any plane along the ray will do: the projection across the ray is what counts.
     Search search(start.root().normal(), start.bounds(), approach, options_, BorderHulls::none, totals);
     search.template visit<query>(start.root());
-    return search.found;
+    if (search.found) found = search.found;
+    return search.found.has_value();
   }
 
   Hit hit(const Found& found, int face, int sub, const SchemeSurface<S>&) const {

@@ -134,6 +134,31 @@ class BoxRay {
   std::array<std::uint8_t, 3> entered_at_;
 };
 
+/// A box that a ray meets, and at what distance: one number, the less the nearer the box.
+class MetBox {
+ public:
+  MetBox() = default;
+  MetBox(float distance, std::int32_t what)
+      : key_(std::uint64_t{ordered(std::bit_cast<std::uint32_t>(distance))} << 32 | static_cast<std::uint32_t>(what)) {}
+
+  float distance() const { return std::bit_cast<float>(unordered(static_cast<std::uint32_t>(key_ >> 32))); }
+  std::int32_t what() const { return static_cast<std::int32_t>(key_); }
+
+  friend void put_in_order(MetBox& nearer, MetBox& farther) {
+    const std::uint64_t a = nearer.key_, b = farther.key_;
+    nearer.key_ = a < b ? a : b;
+    farther.key_ = a < b ? b : a;
+  }
+
+ private:
+  static constexpr std::uint32_t sign = 0x80000000;
+  /// Bits of floats as numbers in the same order: of negative ones all are turned, of others the sign.
+  static std::uint32_t ordered(std::uint32_t bits) { return bits ^ ((bits & sign) != 0 ? ~0U : sign); }
+  static std::uint32_t unordered(std::uint32_t bits) { return bits ^ ((bits & sign) != 0 ? sign : ~0U); }
+
+  std::uint64_t key_;
+};
+
 /// Those of up to sixteen boxes that a ray meets, nearest first, with the distances (in the ray's units) at which it
 /// enters.
 class BoxOrder {
@@ -141,29 +166,25 @@ class BoxOrder {
   BoxOrder() = default;
   BoxOrder(const EightBoxes& boxes, const BoxRay& ray, float far) { add(boxes, 0, ray, far); }
 
-  /// Eight boxes, numbered from `first` on.
+  /// Eight boxes, numbered from `first` on. Which is nearer is for no branch to guess: each goes past all that are
+  /// there, the nearer of two staying.
   void add(const EightBoxes& boxes, std::size_t first, const BoxRay& ray, float far) {
     alignas(32) std::array<float, 8> entries;
     for (unsigned met = ray.meet(boxes, far, entries); met != 0; met &= met - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(met));
-      std::size_t at = count_++;
-      for (; at > 0 && distance_[at - 1] > entries[i]; --at) {
-        distance_[at] = distance_[at - 1];
-        box_[at] = box_[at - 1];
-      }
-      distance_[at] = entries[i];
-      box_[at] = static_cast<std::uint8_t>(first + i);
+      MetBox farther(entries[i], static_cast<std::int32_t>(first + i));
+      for (std::size_t at = 0; at < count_; ++at) put_in_order(met_[at], farther);
+      met_[count_++] = farther;
     }
   }
 
   std::size_t count() const { return count_; }
-  std::size_t box(std::size_t i) const { return box_[i]; }
-  float distance(std::size_t i) const { return distance_[i]; }
+  std::size_t box(std::size_t i) const { return static_cast<std::size_t>(met_[i].what()); }
+  float distance(std::size_t i) const { return met_[i].distance(); }
 
  private:
   std::size_t count_ = 0;
-  std::array<std::uint8_t, 16> box_;
-  std::array<float, 16> distance_;
+  std::array<MetBox, 16> met_;
 };
 
 }  // namespace shaolin

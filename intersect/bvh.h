@@ -88,51 +88,47 @@ class Bvh {
 
 template <class Far, class Visit>
 void Bvh::traverse(const BoxRay& ray, Far far, Visit visit) const {
-  struct Entry {
-    std::int32_t child;
-    float distance;
-  };
   if (nodes_.empty()) return;
   // Every level leaves at most width - 1 entries behind.
   constexpr std::size_t usual = 192;
-  std::array<Entry, usual> fixed;
-  std::vector<Entry> large;
-  Entry* stack = fixed.data();
+  std::array<MetBox, usual> fixed;
+  std::vector<MetBox> large;
+  MetBox* stack = fixed.data();
   if (const auto most = (width - 1) * static_cast<std::size_t>(depth_) + 1; most > usual) {
     large.resize(most);
     stack = large.data();
   }
-  Entry* top = stack;
-  Entry next{0, 0};  // in hand: most nodes lead on to one child or none
+  MetBox* top = stack;
+  MetBox next(0, 0);  // in hand: most nodes lead on to one child or none
   alignas(32) std::array<float, width> entries;
   for (;;) {
     bool leads_on = false;
-    if (next.child < 0) {
-      if (visit(~next.child)) return;
+    if (next.what() < 0) {
+      if (visit(~next.what())) return;
     } else {
-      const Node& node = nodes_[static_cast<std::size_t>(next.child)];
+      const Node& node = nodes_[static_cast<std::size_t>(next.what())];
       if (unsigned met = ray.meet(node.boxes, far(), entries); met != 0) {
         const auto take = [&] {
           const auto i = static_cast<std::size_t>(std::countr_zero(met));
           met &= met - 1;
-          return Entry{node.child[i], entries[i]};
+          return MetBox(entries[i], node.child[i]);
         };
         leads_on = true;
         next = take();
-        Entry* const first = top;
+        MetBox* const first = top;
         while (met != 0) {  // NOLINT(bugprone-infinite-loop): take() changes it
-          Entry farther = take();
-          if (farther.distance < next.distance) std::swap(farther, next);
-          Entry* at = top++;
-          for (; at != first && at[-1].distance < farther.distance; --at) *at = at[-1];
-          *at = farther;
+          // Which is nearer is for no branch to guess: each goes past all that are there, the farthest first.
+          MetBox nearer = take();
+          for (MetBox* at = first; at != top; ++at) put_in_order(nearer, *at);
+          put_in_order(next, nearer);
+          *top++ = nearer;
         }
       }
     }
     while (!leads_on) {
       if (top == stack) return;
       next = *--top;
-      leads_on = next.distance <= far();
+      leads_on = next.distance() <= far();
     }
   }
 }

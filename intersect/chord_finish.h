@@ -57,7 +57,7 @@ class ChordFinish {
   using Found = ChordHit;
 
   template <Query query>
-  std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const;
+  bool search(const StartPatch& start, Approach& approach, TreeTotals& totals, std::optional<Found>& found) const;
 
   Hit hit(const Found& found, int face, int sub, const SchemeSurface<S>&) const {
     return found.hit(face, sub, S::face_kind);
@@ -212,20 +212,20 @@ class ChordFinish<S>::Search : public ChordSearch<S> {
 
 template <Scheme S>
 template <Query query>
-auto ChordFinish<S>::search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const
-    -> std::optional<Found> {
-  std::optional<Found> best;
-  Approach along = approach;
+bool ChordFinish<S>::search(const StartPatch& start, Approach& approach, TreeTotals& totals,
+                            std::optional<Found>& found) const {
+  bool is_found = false;
   for (const auto& part : start.parts()) {
-    if (!along.box_ray.meets(part->box, along.box_far())) continue;
-    Search search(*part, start.bounds(), along, options_, hulls(), totals);
+    if (!approach.box_ray.meets(part->box, approach.box_far())) continue;
+    Search search(*part, start.bounds(), approach, options_, hulls(), totals);
     search.template run<query>(part->root);
     if (!search.found) continue;
-    best = search.found;
+    found = search.found;
+    is_found = true;
     if (query == Query::any) break;
-    along.shorten(best->distance);
+    approach.shorten(found->distance);
   }
-  return best;
+  return is_found;
 }
 
 /// Section 7.4. Of the elements of a shadow list the first that is hit ends the search, as far as places on the shadow

@@ -56,7 +56,7 @@ class ChordSearch {
       : approach_(approach),
         frame_(approach.ray, plane_normal),
         triangle_ray_(approach.ray),
-        error_(frame_.error(bounds)),
+        error_(RayFrame::error(approach.ray.origin, bounds)),
         options_(options),
         hulls_(hulls),
         totals_(totals) {}

@@ -10,6 +10,7 @@
 #include "../schemes/mesh.h"
 #include "../schemes/scheme_surface.h"
 #include "approach.h"
+#include "flat_finish.h"
 #include "flatten.h"
 #include "newton_finish.h"
 #include "parts.h"
@@ -35,6 +36,7 @@ class ExactFinish {
         : normal_(plane_normal(patch)), reach_(hull_of(patch.points)) {
       patch_ = PatchNode<S>::make(std::move(patch), Place{{}, level, reach_.rounding()});
       is_leaf_ = patch_->is_leaf();
+      if (is_leaf_ && patch_->is_polynomial()) variation_ = Variation::of<Polynomial>(polynomial_of(*patch_).net());
       box_ = is_leaf_ || patch_->is_polynomial() ? SceneBox(patch_->bound(), space)
                                                  : Parts<S>::of(*patch_, parts_, space, totals).bound();
     }
@@ -45,6 +47,8 @@ class ExactFinish {
     const SceneBox& box() const { return box_; }
     const PatchNode<S>& patch() const { return *patch_; }
     bool is_leaf() const { return is_leaf_; }
+    /// Of a leaf.
+    const Variation& variation() const { return variation_; }
     typename Parts<S>::Slot& parts() const { return parts_; }
     const Vec3& normal() const { return normal_; }
     /// A box of the control points.
@@ -66,17 +70,18 @@ class ExactFinish {
     // What every ray reads that reaches the patch comes first, in one cache line.
     SceneBox box_;
     bool is_leaf_ = false;
+    Variation variation_;
     mutable typename Parts<S>::Slot parts_{nullptr};
     std::unique_ptr<const PatchNode<S>> patch_;
     Vec3 normal_;
     Box reach_;
   };
 
-  /// A place in a patch's parameters, met at a distance along the ray, and the level of the piece that met it.
+  /// A place in a patch's parameters, met at a distance along the ray, and the piece that met it (see pieces.h).
   struct Found {
     const PatchNode<S>* patch;
     Parameter at;
-    int level;
+    int piece;
     double distance;
     double reach = 0;                               ///< see PatchHit
     bool is_proven = false;                         ///< see PatchHit
@@ -92,17 +97,15 @@ class ExactFinish {
   };
 
   template <Query query>
-  std::optional<Found> search(const StartPatch& start, const Approach& approach, TreeTotals& totals) const {
-    Search search(start, approach, totals);
+  bool search(const StartPatch& start, Approach& approach, TreeTotals& totals, std::optional<Found>& found) const {
+    Search search(start, approach, totals, &found, nullptr);
     search.template run<query>();
-    return search.found;
+    return search.is_found();
   }
 
   /// Appends all hits. Those at edges of patches and pieces may be there more than once.
-  void search_all(const StartPatch& start, const Approach& approach, TreeTotals& totals,
-                  std::vector<Found>& found) const {
-    Search search(start, approach, totals);
-    search.all = &found;
+  void search_all(const StartPatch& start, Approach& approach, TreeTotals& totals, std::vector<Found>& found) const {
+    Search search(start, approach, totals, nullptr, &found);
     search.template run<Query::all>();
   }
 
@@ -110,7 +113,7 @@ class ExactFinish {
     const Parameter at = D::nearest(found.patch->place().domain()(found.at));
     Hit hit;
     hit.at = {face, sub, at.x(), at.y()};
-    hit.level = found.level;
+    hit.level = found.patch->place().part(Pieces<Polynomial>::domain(found.piece)).level();
     if (!found.patch->is_polynomial()) {
       hit.sample = *surface.evaluate(hit.at);
       return hit;
@@ -125,14 +128,21 @@ class ExactFinish {
   /// A ray on its way through one start patch.
   class Search {
    public:
-    Search(const StartPatch& start, const Approach& approach, TreeTotals& totals)
-        : start_(start), approach_(approach), totals_(totals) {}
+    /// What it finds goes to `nearest`, or to `all`: the other is null.
+    Search(const StartPatch& start, Approach& approach, TreeTotals& totals, std::optional<Found>* nearest,
+           std::vector<Found>* all)
+        : start_(start),
+          approach_(approach),
+          totals_(totals),
+          nearest_(nearest),
+          all_(all),
+          error_(RayFrame::error(approach.ray.origin, start.reach())) {}
 
     template <Query query>
     void run() {
       any_ = query == Query::any;
       if (start_.is_leaf())
-        finish(start_.patch(), 0);
+        finish(start_.patch(), 0, start_.variation());
       else
         descend<query>(start_.patch(), start_.parts());
     }
@@ -141,10 +151,9 @@ class ExactFinish {
     template <Query query>
     void descend(const PatchNode<S>& patch, typename Parts<S>::Slot& slot, bool is_tiny = false);
     /// At a leaf: a piece of a polynomial, or a patch without one.
-    void finish(const PatchNode<S>& patch, int piece);
+    void finish(const PatchNode<S>& patch, int piece, const Variation& variation);
 
-    std::optional<Found> found;
-    std::vector<Found>* all = nullptr;  ///< where hits go if all are asked for
+    bool is_found() const { return is_found_; }
 
    private:
     bool may_meet(const PatchNode<S>& patch, bool is_tiny);
@@ -156,27 +165,24 @@ class ExactFinish {
     void finish_by_refinement(const IrregularPatch<S>& patch);
     void finish_as_point(const PatchNode<S>& patch, const Patch<S>& irregular, const Box& hull);
 
-    /// The ray's frame, and the error of coordinates in it, made when a patch first asks: most rays miss the boxes of
-    /// most patches.
+    /// The ray's frame, made when a patch first asks: most rays miss the boxes of most patches.
     const RayFrame& frame() {
-      if (!frame_) {
-        frame_.emplace(approach_.ray, start_.normal());
-        error_ = frame_->error(start_.reach());
-      }
+      if (!frame_) frame_.emplace(approach_.ray, start_.normal());
       return *frame_;
     }
 
     /// The nearest hit so far, in the patch's parameters, or one of all.
-    void take(const PatchNode<S>& patch, const PatchHit& hit, int level) {
-      const Found taken{&patch, hit.at, level, hit.distance, hit.reach, hit.is_proven, hit.radius, error_};
-      if (all) return all->push_back(taken);
-      found = taken;
+    void take(const PatchNode<S>& patch, const PatchHit& hit, int piece) {
+      const Found taken{&patch, hit.at, piece, hit.distance, hit.reach, hit.is_proven, hit.radius, error_};
+      if (all_) return all_->push_back(taken);
+      *nearest_ = taken;
+      is_found_ = true;
       approach_.shorten(hit.distance);
     }
     /// What a solver finds, the nearest or all.
     template <class Solver, class Piece, class Take>
     void solve(Solver&& solver, const Piece& piece, Take take_hit) {
-      if (!all) {
+      if (!all_) {
         if (solver.solve(piece)) take_hit(solver.hit());
         return;
       }
@@ -186,10 +192,13 @@ class ExactFinish {
     }
 
     const StartPatch& start_;
-    Approach approach_;
+    Approach& approach_;
     TreeTotals& totals_;
+    std::optional<Found>* nearest_;
+    std::vector<Found>* all_;
+    bool is_found_ = false;
     std::optional<RayFrame> frame_;
-    double error_ = 0;
+    double error_;      ///< of coordinates in the ray's frame
     bool any_ = false;  ///< whether any hit will do
     int cells_ = 0;     ///< that solvers have looked at, where all hits are asked for
   };
@@ -262,8 +271,8 @@ void ExactFinish<S>::Search::descend(const PatchNode<S>& patch, typename Parts<S
     if (part.parts)
       descend<query>(part.patch, *part.parts, part.is_tiny);
     else
-      finish(part.patch, part.piece);
-    if (query == Query::any && found) return;
+      finish(part.patch, part.piece, *part.variation);
+    if (query == Query::any && is_found_) return;
   }
 }
 
@@ -293,19 +302,28 @@ bool ExactFinish<S>::Search::may_meet(const PatchNode<S>& patch, bool is_tiny) {
 }
 
 template <Scheme S>
-void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number) {
+void ExactFinish<S>::Search::finish(const PatchNode<S>& patch, int number, const Variation& variation) {
   if (!patch.is_polynomial()) return finish_by_refinement(static_cast<const IrregularPatch<S>&>(patch));
-  Net cell;
-  if (!project(polynomial_of(patch).window(), number, cell)) return;
-  NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
-                                  approach_.counters, all ? cells_ : 0);
-  if (any_) solver.settle_for_any();
-  solve(solver, cell, [&](PatchHit hit) {
-    const SubDomain piece = Pieces<Polynomial>::domain(number);
+  const SplineWindow<Polynomial> window = polynomial_of(patch).window();
+  const SubDomain piece = Pieces<Polynomial>::domain(number);
+  const auto take_hit = [&](PatchHit hit) {
     hit.at = piece(hit.at);
     hit.radius = hit.radius.cwiseProduct(piece.scale.cwiseAbs());
-    take(patch, hit, patch.place().part(piece).level());
-  });
+    take(patch, hit, number);
+  };
+  using Flat = FlatFinish<Polynomial>;
+  PatchHit clear;
+  const auto verdict =
+      Flat(window, piece, variation)
+          .solve(approach_.ray, approach_.far(), approach_.far_is_hit(), error_, any_, approach_.counters, clear);
+  if (verdict == Flat::Verdict::found) take_hit(clear);
+  if (verdict != Flat::Verdict::unknown) return;
+  Net cell;
+  if (!project(window, number, cell)) return;
+  NewtonFinish<Polynomial> solver(error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(),
+                                  approach_.counters, all_ ? cells_ : 0);
+  if (any_) solver.settle_for_any();
+  solve(solver, cell, take_hit);
   cells_ = solver.cells();
 }
 
@@ -334,7 +352,7 @@ void ExactFinish<S>::Search::finish_by_refinement(const IrregularPatch<S>& patch
   Patch<S> projected = patch.patch();
   for (Vec3& point : projected.points) point = frame().project(point);
   RefiningFinish<S> solver(4 * error_, approach_.ray.near, approach_.far(), approach_.far_is_hit(), approach_.counters);
-  solve(solver, projected, [&](const PatchHit& hit) { take(patch, hit, patch.place().level()); });
+  solve(solver, projected, [&](const PatchHit& hit) { take(patch, hit, 0); });
 }
 
 /// The whole patch is one point to within rounding, and the irregular corner stands for it: rays aimed there are the
@@ -358,7 +376,7 @@ void ExactFinish<S>::Search::finish_as_point(const PatchNode<S>& patch, const Pa
   }
   const double distance = std::max(frame().project(around.points.front()).z(), approach_.ray.near);
   if (distance > approach_.far() - (approach_.far_is_hit() ? error_ : 0)) return;
-  take(patch, {at, distance, hull.upper.z() - hull.lower.z()}, patch.place().level());
+  take(patch, {at, distance, hull.upper.z() - hull.lower.z()}, 0);
 }
 
 }  // namespace shaolin

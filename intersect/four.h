@@ -36,6 +36,16 @@ class Four {
   friend Four rotated(Four a) {
     return Four(_mm256_shuffle_pd(a.value_, _mm256_permute2f128_pd(a.value_, a.value_, 1), 0b0101));
   }
+  /// (a1, a2, a0, a3): of a vector (x, y, z, ...), (y, z, x, ...).
+  friend Four next_axes(Four a) {
+#ifdef __AVX2__
+    return Four(_mm256_permute4x64_pd(a.value_, _MM_SHUFFLE(3, 0, 2, 1)));
+#else
+    const __m256d swapped = _mm256_permute2f128_pd(a.value_, a.value_, 1);
+    return Four(_mm256_blend_pd(_mm256_shuffle_pd(a.value_, swapped, 0b0001),
+                                _mm256_shuffle_pd(swapped, a.value_, 0b1000), 0b1100));
+#endif
+  }
   /// The four sums (x0 + x1) + (x2 + x3).
   friend Four sums(Four a, Four b, Four c, Four d) {
     const __m256d ab = _mm256_hadd_pd(a.value_, b.value_), cd = _mm256_hadd_pd(c.value_, d.value_);
@@ -85,6 +95,10 @@ class Four {
   }
   /// (a1, a2, a3, a0).
   friend Four rotated(Four a) { return {_mm_shuffle_pd(a.low_, a.high_, 0b01), _mm_shuffle_pd(a.high_, a.low_, 0b01)}; }
+  /// (a1, a2, a0, a3): of a vector (x, y, z, ...), (y, z, x, ...).
+  friend Four next_axes(Four a) {
+    return {_mm_shuffle_pd(a.low_, a.high_, 0b01), _mm_shuffle_pd(a.low_, a.high_, 0b10)};
+  }
   /// The four sums (x0 + x1) + (x2 + x3).
   friend Four sums(Four a, Four b, Four c, Four d) {
     const auto pairs = [](__m128d x, __m128d y) { return _mm_add_pd(_mm_unpacklo_pd(x, y), _mm_unpackhi_pd(x, y)); };
@@ -142,6 +156,7 @@ class Four {
     return bits;
   }
   friend Four rotated(const Four& a) { return {a.value_[1], a.value_[2], a.value_[3], a.value_[0]}; }
+  friend Four next_axes(const Four& a) { return {a.value_[1], a.value_[2], a.value_[0], a.value_[3]}; }
   friend Four sums(const Four& a, const Four& b, const Four& c, const Four& d) {
     const auto sum = [](const Four& x) { return (x.value_[0] + x.value_[1]) + (x.value_[2] + x.value_[3]); };
     return {sum(a), sum(b), sum(c), sum(d)};
@@ -163,5 +178,8 @@ class Four {
 };
 
 #endif
+
+/// The cross product of the first three, and 0.
+inline Four cross(Four a, Four b) { return next_axes(a * next_axes(b) - b * next_axes(a)); }
 
 }  // namespace shaolin

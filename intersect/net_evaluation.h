@@ -13,16 +13,6 @@ class NetEvaluation;
 
 namespace detail {
 
-/// The cubic Bernstein polynomials and their derivatives at a parameter, made in registers: what is stored a number at
-/// a time and loaded four at a time waits for the stores.
-struct Cubics {
-  double t, s = 1 - t;
-
-  Four value() const { return Four(s, s, s, t) * Four(s, s, t, t) * Four(s, 3 * t, 3 * t, t); }
-  Four first() const { return Four(-3 * s, 3 * s, 3 * t, 3 * t) * Four(s, s - 2 * t, 2 * s - t, t); }
-  Four second() const { return Four(6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t); }
-};
-
 /// One weight for each row.
 struct AlongColumns {
   Four row0, row1, row2, row3;
@@ -38,17 +28,16 @@ struct AlongColumns {
 template <>
 class NetEvaluation<BezierQuad> {
  public:
-  explicit NetEvaluation(const Parameter& at)
-      : value_(detail::Cubics{at.x()}.value()), first_(detail::Cubics{at.x()}.first()), v_(at.y()) {}
+  explicit NetEvaluation(const Parameter& at) : u_(CubicWeights::of_bezier(at.x())), v_(at.y()) {}
 
   Four operator()(const std::array<double, 16>& points) const {
     const detail::AlongColumns along_v{Four(&points[0]), Four(&points[4]), Four(&points[8]), Four(&points[12])};
     const Four value = along_v(v_.value);
-    return sums(value_ * value, first_ * value, value_ * along_v(v_.first), Four(0.0));
+    return sums(u_.value * value, u_.first * value, u_.value * along_v(v_.first), Four(0.0));
   }
 
  private:
-  Four value_, first_;  ///< of the cubics along u
+  CubicWeights u_;
   BezierQuad::Bernstein v_;
 };
 
@@ -60,7 +49,8 @@ class NetEvaluation<BezierTriangle> {
  public:
   explicit NetEvaluation(const Parameter& at) : u_(at.x()), v_(at.y()), w_(1 - u_ - v_) {}
 
-  Four operator()(const std::array<double, 16>& points) const {
+  Four operator()(const std::array<double, 16>& points) const { return (*this)(points.data()); }
+  Four operator()(const double* points) const {
     const auto along = [&](std::size_t row0, std::size_t row1, std::size_t row2) {
       return row0_ * Four(&points[row0]) + row1_ * Four(&points[row1]) + row2_ * Four(&points[row2]);
     };
@@ -79,21 +69,72 @@ class NetEvaluation<BezierTriangle> {
   Four row2_{3 * w_ * v_ * v_, 3 * u_* v_* v_, 0, 0};
 };
 
+/// A patch's polynomial at one parameter: vectors (x, y, z, 0).
+template <class Bezier>
+class PatchEvaluation;
+
+template <>
+class PatchEvaluation<BezierQuad> {
+ public:
+  PatchEvaluation(const SplineWindow<BezierQuad>& patch, const Parameter& at)
+      : u_(patch.to_bezier().u_weights(at.x())) {
+    const CubicWeights v = patch.to_bezier().v_weights(at.y());
+    value_ = along_v(patch, v.value);
+    first_ = along_v(patch, v.first);
+  }
+
+  Four position() const { return along_u(u_.value, value_); }
+  Four du() const { return along_u(u_.first, value_); }
+  Four dv() const { return along_u(u_.value, first_); }
+
+ private:
+  using Columns = std::array<Four, 3>;  ///< sums along v of each coordinate
+
+  static Columns along_v(const SplineWindow<BezierQuad>& patch, Four weights) {
+    std::array<double, 4> w;
+    weights.store(w.data());
+    const auto column = [&](std::size_t axis) {
+      return detail::AlongColumns{patch.row(axis, 0), patch.row(axis, 1), patch.row(axis, 2), patch.row(axis, 3)}(w);
+    };
+    return {column(0), column(1), column(2)};
+  }
+  static Four along_u(Four weights, const Columns& of) {
+    return sums(weights * of[0], weights * of[1], weights * of[2], Four(0.0));
+  }
+
+  CubicWeights u_;
+  Columns value_{Four(0.0), Four(0.0), Four(0.0)}, first_ = value_;
+};
+
+template <>
+class PatchEvaluation<BezierTriangle> {
+ public:
+  PatchEvaluation(const SplineWindow<BezierTriangle>& patch, const Parameter& at) {
+    const NetEvaluation<BezierTriangle> evaluation(at);
+    for (std::size_t axis = 0; axis < 3; ++axis) columns_[axis] = evaluation(patch.first() + 16 * axis);
+    transpose(columns_[0], columns_[1], columns_[2], columns_[3]);  // from (value, du, dv, 0) each
+  }
+
+  Four position() const { return columns_[0]; }
+  Four du() const { return columns_[1]; }
+  Four dv() const { return columns_[2]; }
+
+ private:
+  std::array<Four, 4> columns_{Four(0.0), Four(0.0), Four(0.0), Four(0.0)};
+};
+
 /// A polynomial's position and its derivatives up to the second.
 struct Jet {
   Vec3 position;
   Derivatives derivatives;
 };
 
-/// What the cubics weigh is put back to the window's places, which need not become Bezier points.
 inline Jet jet(const SplineWindow<BezierQuad>& patch, const Parameter& at) {
-  const auto& map = patch.to_bezier();
-  const detail::Cubics u{at.x()}, v{at.y()};
-  const Four value = map.u_weights(u.value()), first = map.u_weights(u.first()), second = map.u_weights(u.second());
+  const CubicWeights u = patch.to_bezier().u_weights(at.x()), v = patch.to_bezier().v_weights(at.y());
   std::array<double, 4> v_value, v_first, v_second;
-  map.v_weights(v.value()).store(v_value.data());
-  map.v_weights(v.first()).store(v_first.data());
-  map.v_weights(v.second()).store(v_second.data());
+  v.value.store(v_value.data());
+  v.first.store(v_first.data());
+  v.second.store(v_second.data());
   Jet jet;
   Derivatives& d = jet.derivatives;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -102,8 +143,8 @@ inline Jet jet(const SplineWindow<BezierQuad>& patch, const Parameter& at) {
                                        patch.row(coordinate, 3)};
     const Four of_value = along_v(v_value), of_first = along_v(v_first), of_second = along_v(v_second);
     std::array<double, 4> low, high;
-    sums(value * of_value, first * of_value, value * of_first, first * of_first).store(low.data());
-    sums(second * of_value, value * of_second, Four(0.0), Four(0.0)).store(high.data());
+    sums(u.value * of_value, u.first * of_value, u.value * of_first, u.first * of_first).store(low.data());
+    sums(u.second * of_value, u.value * of_second, Four(0.0), Four(0.0)).store(high.data());
     jet.position[axis] = low[0];
     d.du[axis] = low[1];
     d.dv[axis] = low[2];

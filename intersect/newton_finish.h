@@ -111,8 +111,8 @@ class NewtonFinish {
                  PatchHit& hit);
   bool holds_zero(const Net& cell, const Matrix& flattening, const Contraction& contraction, const Eigen::Vector2d& g,
                   PatchHit& hit) const;
-  Parameter zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian, const Eigen::Vector2d& step,
-                        const Matrix& flattening, const Contraction& contraction) const;
+  /// By how much a point within the error of the ray moves g = flattening * f.
+  Parameter moved(const Matrix& flattening) const { return error_ * flattening.cwiseAbs().rowwise().sum(); }
   /// Of a hit in a cell's parameters.
   void accept(const PatchHit& hit, const Parameter& origin, const Parameter& scale);
 
@@ -325,7 +325,7 @@ template <class Bezier>
 SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix& flattening,
                                                   const Contraction& contraction, Parameter at, PatchHit& hit)
     -> Verdict {
-  const double q = contraction.share, slack = contraction.norm(error_ * flattening.cwiseAbs().rowwise().sum());
+  const double q = contraction.share, slack = contraction.norm(moved(flattening));
   constexpr int most_steps = 12;
   double least = error_;  // of those on the ray how far x and y are off
   bool is_found = false;
@@ -363,7 +363,8 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
       std::array<double, 4> at_z;
       evaluation(cell.z).store(at_z.data());
       hit = {at + last, at_z[0] + at_z[1] * last.x() + at_z[2] * last.y(), 0, true,
-             zero_radius(f, jacobian, whole, flattening, contraction) + (whole - last).cwiseAbs()};
+             zero_radius(flattening * f, flattening * jacobian, whole, contraction, moved(flattening)) +
+                 (whole - last).cwiseAbs()};
       if (is_last) return Verdict::found;
       is_found = true;
       least = off;
@@ -382,7 +383,7 @@ SHAOLIN_FLATTEN auto NewtonFinish<Bezier>::newton(const Net& cell, const Matrix&
 template <class Bezier>
 bool NewtonFinish<Bezier>::holds_zero(const Net& cell, const Matrix& flattening, const Contraction& contraction,
                                       const Eigen::Vector2d& g, PatchHit& hit) const {
-  const double s = contraction.norm(error_ * flattening.cwiseAbs().rowwise().sum());
+  const double s = contraction.norm(moved(flattening));
   const double q = contraction.share + 8 * contraction.weights.sum() * s;
   if (!(q < 1)) return false;
   const auto is_near = [&](const Parameter& at, const Eigen::Vector2d& value) {
@@ -400,38 +401,6 @@ bool NewtonFinish<Bezier>::holds_zero(const Net& cell, const Matrix& flattening,
   evaluation(cell.x).store(at_x.data());
   evaluation(cell.y).store(at_y.data());
   return is_near(next, flattening * Eigen::Vector2d(at_x[0], at_y[0]));
-}
-
-/// How far at most the zero of the exact map F lies from at + step, by the contraction principle; infinite if that
-/// proves none. `f` and J are the given map and its derivative at `at`.
-///
-/// The exact map's control values differ from the given ones by at most the error, and its derivatives, differences of
-/// control values times a degree of at most 4, by 8 errors. So that it has one zero in the cell at most, if F' stays
-/// within q < 1: g' moves by 8 s_i, with s = |flattening| (error, error).
-///
-/// Where it is, x - J^-1 F(x) says, which maps the rectangle at + step +- r into itself: with J^-1 F = M^-1 g for
-/// M = flattening J, second derivatives of M^-1 g are at most 6 |M^-1| a, as those of g are differences of values
-/// within a_ij of each other's centre, times at most 3. At the middle that leaves b = |J^-1 (f + J step)|
-/// + 3 |M^-1| a |step| |step|_1 + |J^-1| (error, error) (1 + 8 |step|_1), and the derivative of the map is at most
-/// C = 6 |M^-1| a |step and r|_1 + 8 |J^-1| errors. r = 5/4 b it is if C r <= b / 4. The rectangle may leave the cell
-/// by 2^-10: there the control values of identity - g', of degree at most 6, grow by (1 + 4 * 2^-10)^6 < 1.024. Then
-/// there is the rounding of the parameters, 2^-52.
-template <class Bezier>
-Parameter NewtonFinish<Bezier>::zero_radius(const Eigen::Vector2d& f, const Matrix& jacobian,
-                                            const Eigen::Vector2d& step, const Matrix& flattening,
-                                            const Contraction& contraction) const {
-  const Parameter flattened = error_ * flattening.cwiseAbs().rowwise().sum();
-  const double q = 1.024 * (contraction.share + 8 * contraction.weights.sum() * contraction.norm(flattened));
-  const Matrix inverse = jacobian.inverse();
-  const Parameter moved = error_ * inverse.cwiseAbs().rowwise().sum();
-  const Matrix bend = 6 * 1.024 * (flattening * jacobian).inverse().cwiseAbs() * contraction.most;
-  const double length = step.lpNorm<1>();
-  const Parameter off =
-      (inverse * (f + jacobian * step)).cwiseAbs() + 0.5 * length * (bend * step.cwiseAbs()) + (1 + 8 * length) * moved;
-  const Parameter radius = 1.25 * off;
-  const Parameter varies = (length + radius.sum()) * (bend * radius) + 8 * radius.sum() * moved;
-  const bool is_proven = q < 1 && (varies.array() <= 0.25 * off.array()).all() && (radius.array() <= 0x1p-10).all();
-  return is_proven ? Parameter(radius.array() + 0x1p-52) : PatchHit::nothing_proven();
 }
 
 /// The axis along which alone a cell is to be halved: seen from the ray its points move 16 times as far along it as

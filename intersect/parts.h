@@ -15,6 +15,7 @@
 #include "patch_node.h"
 #include "pieces.h"
 #include "tree_totals.h"
+#include "variation.h"
 
 namespace shaolin {
 
@@ -41,22 +42,24 @@ class Parts {
 
   struct Part {
     const PatchNode<S>& patch;
-    int piece;     ///< of a leaf's polynomial, see pieces.h
-    Slot* parts;   ///< null for a leaf
-    bool is_tiny;  ///< it may lie within rounding of a ray
+    int piece;                             ///< of a leaf's polynomial, see pieces.h
+    Slot* parts;                           ///< null for a leaf
+    bool is_tiny;                          ///< it may lie within rounding of a ray
+    const Variation* variation = nullptr;  ///< of a leaf's derivatives
   };
 
   /// Boxes of the first eight parts, and of the others: a ray asks for those that it meets, front to back.
-  const EightBoxes& first() const { return first_; }
-  const EightBoxes* second() const { return second_.get(); }
+  const EightBoxes& first() const { return first_.boxes; }
+  const EightBoxes* second() const { return second_ ? &second_->boxes : nullptr; }
   std::size_t count() const { return count_; }
   /// The one in a box; the second eight count from 8.
   Part part(std::size_t box) const {
-    const std::size_t number = patch_[box];
+    const Group& group = box < 8 ? first_ : *second_;
+    const std::size_t i = box % 8, number = group.patch[i];
     const PatchNode<S>& patch = number < polynomials_.size() ? static_cast<const PatchNode<S>&>(polynomials_[number])
                                                              : *irregular_[number - polynomials_.size()];
-    const int piece = piece_[box];
-    if (piece >= 0) return {patch, piece, nullptr, false};
+    const int piece = group.piece[i];
+    if (piece >= 0) return {patch, piece, nullptr, false, &group.variation[i]};
     return {patch, 0, &slots_[static_cast<std::size_t>((-1 - piece) % most)], piece <= first_tiny};
   }
 
@@ -71,6 +74,15 @@ class Parts {
  private:
   static constexpr int most = 16;
   static constexpr int first_tiny = -1 - most;
+
+  /// Eight parts side by side: of each its box, the number of its patch, polynomials first, and of a leaf the piece of
+  /// it and how its derivatives vary; of others -1 - slot, and 16 less if it is tiny.
+  struct Group {
+    EightBoxes boxes;
+    std::array<Variation, 8> variation;
+    std::array<std::uint8_t, 8> patch;
+    std::array<std::int8_t, 8> piece;
+  };
 
   /// A part in the making, which may still be taken apart: an irregular patch, or a piece of a polynomial.
   struct Draft {
@@ -106,12 +118,8 @@ class Parts {
   std::vector<std::unique_ptr<const IrregularPatch<S>>> irregular_;
   std::vector<std::unique_ptr<const double[]>> points_;  ///< of polynomials
   std::unique_ptr<Slot[]> slots_;
-  std::unique_ptr<EightBoxes> second_;
-  EightBoxes first_;
-  /// Of each part the number of its patch, polynomials first, and of a leaf the piece of it, of others -1 - slot, and
-  /// 16 less if it is tiny.
-  std::array<std::uint8_t, most> patch_;
-  std::array<std::int8_t, most> piece_;
+  std::unique_ptr<Group> second_;
+  Group first_;
   std::uint16_t point_count_ = 0;  ///< of doubles
   std::uint8_t count_ = 0, slot_count_ = 0, splits_ = 0;
 };
@@ -170,8 +178,8 @@ auto Parts<S>::of(const PatchNode<S>& patch, Slot& slot, const BoxSpace& space, 
 
 template <Scheme S>
 SceneBox Parts<S>::bound() const {
-  SceneBox all = first_.bound();
-  if (second_) all.add(second_->bound());
+  SceneBox all = first().bound();
+  if (second_) all.add(second()->bound());
   return all;
 }
 
@@ -277,22 +285,24 @@ template <Scheme S>
 void Parts<S>::add(const Draft& part, const BoxSpace& space) {
   const std::size_t i = count_++;
   assert(i < most);
-  if (i == 8) second_ = std::make_unique<EightBoxes>();
-  (i < 8 ? first_ : *second_).set(i % 8, {part.box, space});
+  if (i == 8) second_ = std::make_unique<Group>();
+  Group& group = i < 8 ? first_ : *second_;
+  group.boxes.set(i % 8, {part.box, space});
   const auto is_part = [&](const auto& patch) { return patch.get() == part.irregular; };
   const auto at = std::find_if(irregular_.begin(), irregular_.end(), is_part) - irregular_.begin();
   const std::size_t number = part.irregular ? polynomials_.size() + static_cast<std::size_t>(at) : part.index;
   assert(number <= std::numeric_limits<std::uint8_t>::max());
-  patch_[i] = static_cast<std::uint8_t>(number);
+  group.patch[i % 8] = static_cast<std::uint8_t>(number);
   if (part.is_leaf) {
-    piece_[i] = static_cast<std::int8_t>(part.number);
+    group.piece[i % 8] = static_cast<std::int8_t>(part.number);
+    if (!part.irregular) group.variation[i % 8] = Variation::of<Polynomial>(Net(part.polynomial));
     return;
   }
   // From here on an irregular patch may be taken for a point. Not before, even if it is one: whether it is asked there
   // must not depend on whether its parts are known already.
   constexpr int tiny_level = 24;
   const bool is_tiny = part.irregular && part.irregular->place().level() >= tiny_level;
-  piece_[i] = static_cast<std::int8_t>((is_tiny ? first_tiny : -1) - slot_count_++);
+  group.piece[i % 8] = static_cast<std::int8_t>((is_tiny ? first_tiny : -1) - slot_count_++);
 }
 
 template <Scheme S>

@@ -48,13 +48,16 @@ class Pieces<BezierQuad> {
     }
   }
 
-  static SubDomain domain(int number) {
-    const auto along = [](int interval) -> std::array<double, 2> {
-      if (interval == 0) return {0, 1};
-      return interval < 3 ? std::array{(interval - 1) * 0.5, 0.5} : std::array{(interval - 3) * 0.25, 0.25};
-    };
-    const auto u = along(u_of(number)), v = along(v_of(number));
-    return {{u[0], v[0]}, {u[1], v[1]}};
+  static const SubDomain& domain(int number) {
+    static const auto domains = [] {
+      std::array<SubDomain, std::size_t{intervals} * intervals> all;
+      for (int i = 0; i < intervals * intervals; ++i) {
+        const auto u = interval(u_of(i)), v = interval(v_of(i));
+        all[static_cast<std::size_t>(i)] = {{u[0], v[0]}, {u[1], v[1]}};
+      }
+      return all;
+    }();
+    return domains[static_cast<std::size_t>(number)];
   }
 
   /// True if a piece may be cut further.
@@ -95,6 +98,11 @@ class Pieces<BezierQuad> {
   static constexpr int of(int u, int v) { return intervals * v + u; }
   static constexpr int u_of(int number) { return number % intervals; }
   static constexpr int v_of(int number) { return number / intervals; }
+  /// Where one begins, and how long it is.
+  static constexpr std::array<double, 2> interval(int i) {
+    if (i == 0) return {0, 1};
+    return i < 3 ? std::array{(i - 1) * 0.5, 0.5} : std::array{(i - 3) * 0.25, 0.25};
+  }
 
   /// Four points of a cubic to those of an interval.
   struct Map {

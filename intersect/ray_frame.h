@@ -74,9 +74,9 @@ class RayFrame {
   /// point yet becomes one then, by convex combinations along u and v, 4 u of a coordinate each: 14 u Q. Evaluation of
   /// the polynomial stays below 16 u of either. Twice the first sum, and a third more than the second, leave room for
   /// second order.
-  double error(const Box& box) const {
+  static double error(const Vec3& origin, const Box& box) {
     const double relative =
-        std::max((box.lower - origin_).cwiseAbs().maxCoeff(), (box.upper - origin_).cwiseAbs().maxCoeff());
+        std::max((box.lower - origin).cwiseAbs().maxCoeff(), (box.upper - origin).cwiseAbs().maxCoeff());
     return unit_roundoff * (160 * box.largest_coordinate() + 64 * relative);
   }
 

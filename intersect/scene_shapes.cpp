@@ -78,8 +78,12 @@ SweepContact contact_of(const SphereSweep& sweep, double t, const ShapeContact& 
                       Vec3::Zero(),
                       contact.level,
                       contact.instance};
-  const Vec3 way = result.centre - result.sample.position;
-  result.normal = way.isZero(0) ? result.sample.normal : way.stableNormalized();
+  const Vec3& position = result.sample.position;
+  const Vec3 way = result.centre - position;
+  // What a position may be off by (RayFrame::error) is no way from it.
+  const double rounding =
+      160 * unit_roundoff * std::max(position.cwiseAbs().maxCoeff(), result.centre.cwiseAbs().maxCoeff());
+  result.normal = way.cwiseAbs().maxCoeff() <= rounding ? result.sample.normal : Vec3(way.stableNormalized());
   return result;
 }
 

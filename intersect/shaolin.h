@@ -19,7 +19,7 @@
 namespace shaolin {
 
 /// A finish that gives all hits of a ray, too:
-///     void search_all(const StartPatch&, const Approach&, TreeTotals&, std::vector<Found>&) const;
+///     void search_all(const StartPatch&, Approach&, TreeTotals&, std::vector<Found>&) const;
 /// appends them; its Found has `reach`, `is_proven` and `error` besides, as ExactFinish's.
 template <class Finish>
 concept FindsAll = requires {
@@ -42,10 +42,11 @@ concept HasParts = requires(const typename Finish::StartPatch& start) {
 ///       std::uint64_t bytes() const;  // its own; what grows in it goes to the totals when it is made
 ///       std::uint64_t grown_bytes() const;  // of all that has grown so far
 ///     struct Found { double distance; ... };
-///     template <Query> std::optional<Found> search(const StartPatch&, Approach&, TreeTotals&) const;
+///     template <Query> bool search(const StartPatch&, Approach&, TreeTotals&, std::optional<Found>&) const;
 ///     Hit hit(const Found&, face, sub, const SchemeSurface<S>&) const;  // all but t and instance
 ///
-/// where search() gives the nearest place with distance in [ray.near, far], or any.
+/// where search() gives the nearest place with distance in [ray.near, far], or any, or returns false and changes
+/// nothing.
 template <Scheme S, template <class> class Finish>
 class ShaoLin {
  public:
@@ -94,8 +95,8 @@ class ShaoLin {
   };
 
   struct FoundAt {
-    Found found;
-    Primitive primitive;
+    std::optional<Found> found;
+    int primitive = -1;
   };
 
   Primitive primitive(int number) const {
@@ -114,7 +115,7 @@ class ShaoLin {
       return false;
   }
   template <Query query>
-  std::optional<FoundAt> search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
+  FoundAt search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
   /// Within the distances of `traversal`. A PatchBudget::Query must span it: what is found is in a tree.
   std::optional<Hit> closest(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const;
 
@@ -164,21 +165,19 @@ auto ShaoLin<S, Finish>::make_start_patch(int primitive) const -> const StartPat
 
 template <Scheme S, template <class> class Finish>
 template <Query query>
-auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const
-    -> std::optional<FoundAt> {
+auto ShaoLin<S, Finish>::search(const Ray& ray, const TraversalRay& traversal, RayCounters& counters) const -> FoundAt {
+  FoundAt best;
   const std::optional<BoxRay> box_ray = bvh_.enter(traversal);
-  if (!box_ray) return {};
-  std::optional<FoundAt> best;
+  if (!box_ray) return best;
   Approach approach(traversal, *box_ray, ray.footprint, bvh_.space(), counters);
   bvh_.traverse(
       *box_ray, [&] { return approach.box_far(); },
       [&](int primitive) {
         const StartPatch& start = start_patch(primitive);
         if (!box_ray->meets(start.box(), approach.box_far())) return false;
-        const std::optional<Found> found = finish_.template search<query>(start, approach, start_patches_.totals());
-        if (!found) return false;
-        best = {*found, this->primitive(primitive)};
-        approach.shorten(found->distance);
+        if (!finish_.template search<query>(start, approach, start_patches_.totals(), best.found)) return false;
+        best.primitive = primitive;
+        approach.shorten(best.found->distance);
         return query == Query::any;
       });
   return best;
@@ -188,8 +187,8 @@ template <Scheme S, template <class> class Finish>
 bool ShaoLin<S, Finish>::occluded(const Ray& ray, RayCounters& counters) const {
   if (bvh_.is_passed_by(ray)) return false;
   const PatchBudget::Query guard(start_patches_.budget());
-  const std::optional<FoundAt> any = search<Query::any>(ray, TraversalRay(ray), counters);
-  if (any && !is_certified(any->found)) ++counters.uncertified;
+  const std::optional<Found> any = search<Query::any>(ray, TraversalRay(ray), counters).found;
+  if (any && !is_certified(*any)) ++counters.uncertified;
   return any.has_value();
 }
 
@@ -202,7 +201,7 @@ std::vector<Crossing> ShaoLin<S, Finish>::all_hits(const Ray& ray,
   if (!box_ray) return {};
   std::vector<Contact> contacts;
   std::vector<Found> found;
-  const Approach approach(traversal, *box_ray, ray.footprint, bvh_.space(), counters);
+  Approach approach(traversal, *box_ray, ray.footprint, bvh_.space(), counters);
   bvh_.traverse(
       *box_ray, [&] { return approach.box_far(); },
       [&](int primitive) {
@@ -241,10 +240,11 @@ std::optional<Hit> ShaoLin<S, Finish>::intersect(const Ray& ray, RayCounters& co
 template <Scheme S, template <class> class Finish>
 std::optional<Hit> ShaoLin<S, Finish>::closest(const Ray& ray, const TraversalRay& traversal,
                                                RayCounters& counters) const {
-  const std::optional<FoundAt> best = search<Query::closest>(ray, traversal, counters);
-  if (!best) return {};
-  Hit hit = finish_.hit(best->found, best->primitive.face, best->primitive.sub, surface_);
-  hit.t = std::clamp(traversal.t(best->found.distance), ray.tmin, ray.tmax);
+  const FoundAt best = search<Query::closest>(ray, traversal, counters);
+  if (!best.found) return {};
+  const auto [face, sub] = primitive(best.primitive);
+  Hit hit = finish_.hit(*best.found, face, sub, surface_);
+  hit.t = std::clamp(traversal.t(best.found->distance), ray.tmin, ray.tmax);
   hit.certificate.residual = distance_from_line(hit.sample.position, traversal.origin, traversal.direction);
   return hit;
 }
@@ -271,7 +271,7 @@ std::optional<ClosestPoint> ShaoLin<S, Finish>::closest_point(
   ClosestPoint closest;
   closest.level = best->level;
   if (best->patch) {
-    const Hit hit = finish_.hit(Found{best->patch, best->at, best->level, 0}, face, sub, surface_);
+    const Hit hit = finish_.hit(Found{best->patch, best->at, 0, 0}, face, sub, surface_);
     closest.at = hit.at;
     closest.sample = hit.sample;
   } else {

@@ -34,7 +34,8 @@ struct SweepContact {
   SurfaceParameter at;  ///< face, sub, u, v in the input's terms
   LimitSample sample;   ///< the limit position, the unit normal, derivatives
   Vec3 centre;          ///< of the sphere at that time
-  Vec3 normal;          ///< unit, from the position to the centre; the surface's normal where the two are one point
+  Vec3 normal;          ///< unit, from the position to the centre; the surface's normal where the two are one point,
+                        ///< up to rounding
   int level = 0;
   int instance = 0;
 };

@@ -11,6 +11,28 @@ namespace shaolin {
 /// Four rows of four places, a coordinate of each.
 using Rows = std::array<Four, 4>;
 
+/// What four places of a line weigh in a cubic and in its derivatives, made in registers: what is stored a number at a
+/// time and loaded four at a time waits for the stores.
+struct CubicWeights {
+  Four value, first, second;
+
+  /// Bernstein polynomials: with s = 1 - t, (s^3, 3 s^2 t, 3 s t^2, t^3).
+  static CubicWeights of_bezier(double t) {
+    const double s = 1 - t;
+    const Four near(s, s, t, t), either(s, t, s, t), of_s(s), of_t(t);
+    return {near * near * (Four(1, 3, 3, 1) * either), near * (Four(-3, 3, 6, 0) * of_s + Four(0, -6, -3, 3) * of_t),
+            Four(6, -12, 6, 0) * of_s + Four(0, 6, -12, 6) * of_t};
+  }
+  /// The uniform B-spline's: with s = 1 - t, (s^3, 4 - 6 t^2 + 3 t^3, 4 - 6 s^2 + 3 s^3, t^3) / 6.
+  static CubicWeights of_spline(double t) {
+    const double s = 1 - t;
+    const Four x(s, t, s, t), flat(0, -1, -1, 0), cubic(1.0 / 6, 0.5, 0.5, 1.0 / 6);
+    const Four way(-1, 1, -1, 1);  // dx / dt
+    return {Four(0, 2.0 / 3, 2.0 / 3, 0) + x * x * (flat + cubic * x), way * x * (Four(2) * flat + Four(3) * cubic * x),
+            Four(2) * flat + Four(6) * cubic * x};
+  }
+};
+
 /// How a coordinate of a patch's Bezier points comes from its rows.
 template <class Bezier>
 class RowMap;
@@ -45,9 +67,9 @@ class RowMap<BezierQuad> {
     for (std::size_t j = 0; j < 4; ++j) rows[j].store(&bezier[4 * j]);
   }
 
-  /// What the places of a row, or of a column, weigh where Bezier points weigh this much.
-  Four u_weights(Four w) const { return transposed(maps_->u, w); }
-  Four v_weights(Four w) const { return transposed(maps_->v, w); }
+  /// What the places of a row, or of a column, weigh in the polynomial and its derivatives.
+  CubicWeights u_weights(double u) const { return weights(maps_->u, u); }
+  CubicWeights v_weights(double v) const { return weights(maps_->v, v); }
 
  private:
   /// Maps four lines, place by place. The spline's, by thirds: its Bezier points are a third of the way from point to
@@ -67,10 +89,15 @@ class RowMap<BezierQuad> {
     }
   }
 
-  static Four transposed(const LineMap& map, Four w) {
-    if (map.kind == LineMap::Kind::identity) return w;
+  /// What Bezier points weigh is put back to the places.
+  static CubicWeights weights(const LineMap& map, double t) {
+    if (map.kind == LineMap::Kind::spline) return CubicWeights::of_spline(t);
+    const CubicWeights bezier = CubicWeights::of_bezier(t);
+    if (map.kind == LineMap::Kind::identity) return bezier;
     const double* const m = map.matrix.data();
-    return sums(Four(m) * w, Four(m + 4) * w, Four(m + 8) * w, Four(m + 12) * w);
+    const Four place0(m), place1(m + 4), place2(m + 8), place3(m + 12);
+    const auto back = [&](Four w) { return sums(place0 * w, place1 * w, place2 * w, place3 * w); };
+    return {back(bezier.value), back(bezier.first), back(bezier.second)};
   }
 
   const Maps* maps_;

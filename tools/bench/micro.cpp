@@ -66,7 +66,7 @@ struct Subject {
       ray.direction = -normal;
       const RayFrame frame(TraversalRay(ray), normal);
       frame.project(nets.back(), met ? cell.met : cell.missed);
-      cell.error = frame.error(box);
+      cell.error = RayFrame::error(TraversalRay(ray).origin, box);
     }
     cells.push_back(cell);
   }
