@@ -119,9 +119,9 @@ class Parts {
   std::vector<std::unique_ptr<const double[]>> points_;  ///< of polynomials
   std::unique_ptr<Slot[]> slots_;
   std::unique_ptr<Group> second_;
-  Group first_;
   std::uint16_t point_count_ = 0;  ///< of doubles
   std::uint8_t count_ = 0, slot_count_ = 0, splits_ = 0;
+  Group first_;
 };
 
 template <Scheme S>

@@ -25,30 +25,30 @@ class Place {
   Place(const SubDomain& domain, int root_level, double rounding)
       : u_(domain.origin.x()),
         v_(domain.origin.y()),
-        rounding_(rounding),
-        u_halvings_(static_cast<std::int16_t>(-std::ilogb(domain.scale.x()))),
-        v_halvings_(static_cast<std::int16_t>(-std::ilogb(domain.scale.y()))),
-        root_level_(static_cast<std::int8_t>(root_level)),
+        rounding_(upper_half(rounding)),
+        u_halvings_(static_cast<std::uint32_t>(-std::ilogb(domain.scale.x()))),
+        v_halvings_(static_cast<std::uint32_t>(-std::ilogb(domain.scale.y()))),
+        root_level_(static_cast<std::uint32_t>(root_level)),
         is_turned_(domain.scale.x() < 0) {}
 
   SubDomain domain() const { return {{u_, v_}, {scale(u_halvings_), scale(v_halvings_)}}; }
-  int level() const { return root_level_ + std::max(u_halvings_, v_halvings_); }
-  /// Box::rounding() of the root's points: a small piece carries the errors of what it was made of.
-  double rounding() const { return rounding_; }
-  Place part(const SubDomain& part) const { return {domain()(part), root_level_, rounding_}; }
+  int level() const { return static_cast<int>(root_level_ + std::max<std::uint32_t>(u_halvings_, v_halvings_)); }
+  /// Box::rounding() of the root's points, or a little more: a small piece carries the errors of what it was made of.
+  double rounding() const { return std::bit_cast<double>(std::uint64_t{rounding_} << 32); }
+  Place part(const SubDomain& part) const { return {domain()(part), static_cast<int>(root_level_), rounding()}; }
 
  private:
-  double scale(int halvings) const { return (is_turned_ ? -1 : 1) * negative_power_of_two(halvings); }
-  static double negative_power_of_two(int k) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 - k) << 52);
+  double scale(std::uint32_t halvings) const { return (is_turned_ ? -1 : 1) * negative_power_of_two(halvings); }
+  static double negative_power_of_two(std::uint32_t k) { return std::bit_cast<double>(std::uint64_t{1023 - k} << 52); }
+  /// Of a double that is not negative, rounded up.
+  static std::uint32_t upper_half(double value) {
+    return static_cast<std::uint32_t>((std::bit_cast<std::uint64_t>(value) + 0xffffffff) >> 32);
   }
 
   // There are many: a domain's scale is kept by its exponents. (And its origin without Parameter's alignment.)
   double u_ = 0, v_ = 0;
-  double rounding_ = 0;
-  std::int16_t u_halvings_ = 0, v_halvings_ = 0;
-  std::int8_t root_level_ = 0;
-  bool is_turned_ = false;
+  std::uint32_t rounding_ = 0;
+  std::uint32_t u_halvings_ : 12 = 0, v_halvings_ : 12 = 0, root_level_ : 7 = 0, is_turned_ : 1 = 0;
 };
 
 /// A patch that is kept: a PolynomialPatch or an IrregularPatch.
@@ -122,7 +122,7 @@ class PolynomialPatch : public PatchNode<S> {
     return polynomial;
   }
 
-  // There are many: the window's parts fit into 64 bytes with the rest.
+  // There are many: the window's parts fit into 56 bytes with the rest.
   bool is_smooth_across_;
   std::int8_t halvings_;
   std::uint8_t side_;

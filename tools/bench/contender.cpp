@@ -21,7 +21,11 @@ class SceneTracer final : public Tracer {
 
 class EmbreeTracer final : public Tracer {
  public:
-  EmbreeTracer(const Stage& stage, int level, EmbreeSurface surface) : scene_(stage, level, surface), level_(level) {}
+  EmbreeTracer(const Stage& stage, const Contender& contender)
+      : scene_(stage, contender.level,
+               contender.kind == ContenderKind::triangles ? EmbreeSurface::triangles : EmbreeSurface::subdivision,
+               contender.is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE),
+        level_(contender.level) {}
 
   std::optional<Answer> intersect(const Ray& ray) const override {
     const auto hit = scene_.intersect(ray);
@@ -86,10 +90,7 @@ SceneOptions scene_options(const Contender& contender) {
 }
 
 std::unique_ptr<Tracer> make_tracer(const Contender& contender, const Stage& stage) {
-  if (contender.kind == ContenderKind::triangles)
-    return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::triangles);
-  if (contender.kind == ContenderKind::subdivision)
-    return std::make_unique<EmbreeTracer>(stage, contender.level, EmbreeSurface::subdivision);
+  if (contender.is_embree()) return std::make_unique<EmbreeTracer>(stage, contender);
   return std::make_unique<SceneTracer>(stage, scene_options(contender));
 }
 

@@ -25,9 +25,10 @@ const char* name_of(ContenderKind kind);  ///< as --methods takes it: "exact", "
 /// A method and its parameter.
 struct Contender {
   ContenderKind kind = ContenderKind::exact;
-  double epsilon = 0;    ///< of chord and a3, as the paper counts it: in units of the scene
-  int level = 0;         ///< of uniform, triangles and subdivision
-  ChordOptions chord{};  ///< of chord and a3; chord.epsilon is a length
+  double epsilon = 0;      ///< of chord and a3, as the paper counts it: in units of the scene
+  int level = 0;           ///< of uniform, triangles and subdivision
+  ChordOptions chord{};    ///< of chord and a3; chord.epsilon is a length
+  bool is_robust = false;  ///< of Embree's scenes: RTC_SCENE_FLAG_ROBUST, which costs it time
 
   bool is_adaptive() const { return kind == ContenderKind::chord || kind == ContenderKind::a3; }
   bool is_uniform() const { return kind == ContenderKind::uniform || is_embree(); }

@@ -26,8 +26,14 @@ void check(RTCDevice device) {
 
 }  // namespace
 
-EmbreeHandle<RTCSceneTy> EmbreeStage::scene_of(const EmbreeGeometry& geometry) const {
+EmbreeHandle<RTCSceneTy> EmbreeStage::new_scene() const {
   EmbreeHandle<RTCSceneTy> scene(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(scene.get(), flags_);
+  return scene;
+}
+
+EmbreeHandle<RTCSceneTy> EmbreeStage::scene_of(const EmbreeGeometry& geometry) const {
+  EmbreeHandle<RTCSceneTy> scene = new_scene();
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene.get(), geometry.get());
   rtcCommitScene(scene.get());
@@ -67,14 +73,14 @@ EmbreeStage::Part EmbreeStage::make_subdivision(const LoadedModel& model, int le
   return {scene_of(embree_subdivision(device_.get(), model.mesh, level))};
 }
 
-EmbreeStage::EmbreeStage(const Stage& stage, int level, EmbreeSurface surface)
-    : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)), device_(rtcNewDevice("threads=1")) {
+EmbreeStage::EmbreeStage(const Stage& stage, int level, EmbreeSurface surface, RTCSceneFlags flags)
+    : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)), device_(rtcNewDevice("threads=1")), flags_(flags) {
   if (!device_) throw std::runtime_error("Embree does not start");
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, bytes_.get());
   for (const LoadedModel& model : stage.models)
     parts_.push_back(surface == EmbreeSurface::triangles ? make_triangles(model, level)
                                                          : make_subdivision(model, level));
-  scene_.reset(rtcNewScene(device_.get()));
+  scene_ = new_scene();
   for (const SceneFile::Instance& instance : stage.scene.instances) {
     EmbreeGeometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
     rtcSetGeometryInstancedScene(geometry.get(), parts_[instance.object].scene.get());

@@ -24,7 +24,8 @@ class EmbreeStage {
 
   /// Throws what tessellate() and embree_subdivision() throw, InputError for subdivision by another scheme than
   /// catmark, std::runtime_error if Embree fails.
-  EmbreeStage(const Stage& stage, int level, EmbreeSurface surface = EmbreeSurface::triangles);
+  EmbreeStage(const Stage& stage, int level, EmbreeSurface surface = EmbreeSurface::triangles,
+              RTCSceneFlags flags = RTC_SCENE_FLAG_NONE);
 
   std::optional<Hit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const { return embree_occluded(scene_.get(), ray); }
@@ -49,10 +50,12 @@ class EmbreeStage {
 
   Part make_triangles(const LoadedModel& model, int level);
   Part make_subdivision(const LoadedModel& model, int level) const;
+  EmbreeHandle<RTCSceneTy> new_scene() const;
   EmbreeHandle<RTCSceneTy> scene_of(const EmbreeGeometry& geometry) const;
 
   std::unique_ptr<std::atomic<std::ptrdiff_t>> bytes_;  ///< of Embree; it outlives the device, which counts with it
   EmbreeDevice device_;
+  RTCSceneFlags flags_;
   std::vector<Part> parts_;
   std::vector<Place> places_;  ///< by instance
   EmbreeHandle<RTCSceneTy> scene_;

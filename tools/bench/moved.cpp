@@ -102,7 +102,7 @@ void bench_move(const std::string& kind, double by, Stage stage, const MovedOpti
   if (scheme != "loop" && scheme != "catmark") return;
   for (const ContenderKind peer : {ContenderKind::triangles, ContenderKind::subdivision}) {
     if (peer == ContenderKind::subdivision && scheme != "catmark") continue;
-    model.print_contender({.kind = peer, .level = options.level});
+    model.print_contender({.kind = peer, .level = options.level, .is_robust = true});
   }
   model.print_cgal();
 }

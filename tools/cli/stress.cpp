@@ -57,6 +57,8 @@ int stress_models(const StressOptions& options) {
                                  .seed = options.seed,
                                  .rays = options.rays,
                                  .minutes = options.minutes};
+  std::optional<stress::Peers> peers;
+  if (options.peers_level) run_options.peers = &peers.emplace(*options.peers_level);
   stress::Result result;
   run_with_threads(options.threads, [&] {
     result = stress::run(run_options, [&](std::size_t rays) {
@@ -64,6 +66,10 @@ int stress_models(const StressOptions& options) {
     });
   });
   stress::print(std::cout, result, options.seed);
+  if (peers) {
+    std::cout << "\nclosest hits of peers, against our own:\n\n";
+    write_markdown(std::cout, peers->table());
+  }
   if (!options.report.empty()) stress::write_report(options.report, result, run_options);
   return result.passed() ? exit_done : exit_check_failed;
 }
@@ -86,6 +92,10 @@ void add_stress(CLI::App& app, Command& command) {
       ->check(CLI::IsMember(family_names()))
       ->type_name("NAME");
   add_seed_option(*sub, options->seed);
+  sub->add_option("--peers", options->peers_level,
+                  "Ask Embree's triangles, its subdivision and CGAL's tree the same rays, at this level of refinement")
+      ->check(CLI::Range(1, 8))
+      ->type_name("LEVEL");
   sub->add_option("--report", options->report, "Folder for tables and failed rays")->type_name("DIR");
   add_threads_option(*sub, options->threads);
   sub->callback([options, &command] { command = [options] { return stress_models(*options); }; });

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct StressOptions {
   std::size_t rays = 256;                     ///< --rays: of each family at each model
   double minutes = 0;                         ///< --minutes, in place of rays
   std::uint64_t seed = 1;                     ///< --seed
+  std::optional<int> peers_level;             ///< --peers: that peers are built at; empty: they are not asked
   std::filesystem::path report;               ///< --report, a folder; empty: none
   int threads = 2;                            ///< --threads
 };

@@ -118,6 +118,20 @@ void write_failures(const std::filesystem::path& file, const Result& result) {
   csv.commit();
 }
 
+void write_peers(const std::filesystem::path& file, const TextTable& table) {
+  std::string header;
+  for (const std::string& name : table.header) header += (header.empty() ? "" : ",") + name;
+  CsvWriter csv(file, header);
+  for (const auto& row : table.rows) {
+    for (std::string cell : row) {
+      std::erase(cell, ',');
+      csv.field(cell);
+    }
+    csv.end_row();
+  }
+  csv.commit();
+}
+
 }  // namespace
 
 TextTable table_of(const Result& result) {
@@ -149,6 +163,7 @@ void write_report(const std::filesystem::path& folder, const Result& result, con
   make_report_folder(folder);
   write_rows(folder / "stress.csv", result);
   write_failures(folder / "failures.csv", result);
+  if (options.peers) write_peers(folder / "peers.csv", options.peers->table());
   write_page(folder / "stress.json", [&](std::ostream& out) { out << json_of(result, options).dump(1) << '\n'; });
 }
 

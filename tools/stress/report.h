@@ -19,6 +19,7 @@ void print(std::ostream& out, const Result& result, std::uint64_t seed);
 ///
 /// - stress.csv: the rows by family and model;
 /// - stress.json: the same, totals and failures;
+/// - peers.csv: Peers::table(), if peers were asked;
 /// - failures.csv: a row for each wrong answer: family, model, what was done to the model, fault, the ray in 17 digits,
 ///   what was found.
 ///

@@ -46,7 +46,10 @@ std::vector<Job> jobs_of(const RunOptions& options) {
 /// Rays `begin` (of a multiple of `block`) to `end` of a job. False if it has nothing to aim at.
 bool throw_rays(Job& job, const RunOptions& options, std::size_t begin, std::size_t end) {
   Stopwatch stopwatch;
-  const std::unique_ptr<const Stage> stage = job.family->stage(job.model, options.queries_of);
+  const QueriesOf queries_of = options.peers && !job.model.masks
+                                   ? options.peers->beside(options.queries_of, job.family->name, job.model.scheme)
+                                   : options.queries_of;
+  const std::unique_ptr<const Stage> stage = job.family->stage(job.model, queries_of);
   if (!stage) return false;
   const std::size_t first = begin / block, blocks = (end + block - 1) / block - first;
   std::vector<Tally> tallies(blocks);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/stress/family.h"
+#include "tools/stress/peers.h"
 
 namespace shaolin::stress {
 
@@ -16,6 +17,7 @@ struct RunOptions {
   std::size_t rays = 256;  ///< of each family at each of its models
   double minutes = 0;      ///< above 0: as many rays as there is time for, in place of `rays`
   QueriesOf queries_of = RayQueries::of;
+  Peers* peers = nullptr;  ///< asked the same rays, if there are any
 };
 
 /// One family at one model.
