@@ -2,6 +2,7 @@
 /// The control points of a regular patch, coordinate by coordinate, for vector instructions.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "../schemes/limit_sample.h"
 #include "box.h"
@@ -55,6 +56,14 @@ struct Range {
     high = std::max(std::max(highs[0], highs[1]), std::max(highs[2], highs[3]));
   }
 };
+
+/// The place of the least of sixteen values, the first of equal ones.
+inline std::size_t place_of_least(const std::array<double, 16>& v) {
+  const Four low(Range(v).low);
+  int places = 0;
+  for (int i = 0; i < 16; i += 4) places |= at_most(Four(&v[static_cast<std::size_t>(i)]), low) << i;
+  return places == 0 ? 0 : static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(places)));
+}
 
 /// The bounds of a net's points.
 inline Box hull_of(const Net& net) {

@@ -62,7 +62,7 @@ class PolynomialCell final : public SurfaceCell {
     std::array<double, 16> plane, along;
     combine(n.x(), net_.x, n.y(), net_.y, plane);
     combine(1, plane, n.z(), net_.z, along);
-    const auto i = static_cast<std::size_t>(std::min_element(along.begin(), along.end()) - along.begin());
+    const std::size_t i = place_of_least(along);
     return {net_.x[i], net_.y[i], net_.z[i]};
   }
   double least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const override;

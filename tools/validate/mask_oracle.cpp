@@ -14,10 +14,10 @@ using OpenSubdiv::Sdc::SchemeType;
 
 /// Masks of radius 2 read the rings of a face's neighbours. Three rings around a face then hold three rings around each
 /// of its children with a ring to spare, whose points a cut makes wrong.
-constexpr int rings = 3;
+constexpr int mask_rings = 3;
 
 /// The faces shrink by more than this a level, or the scheme does not converge.
-constexpr int most_levels = 400;
+constexpr int most_mask_levels = 400;
 
 /// A normal has settled if it has turned by no more over the last so many levels: a fifth of bar::normal.
 constexpr int settling_levels = 8;
@@ -73,7 +73,7 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
   const RootMesh::Place place = root_.place_of(parameter);
   if (!has_limit(parameter.face)) return std::nullopt;
   double u = place.u, v = place.v;
-  CutOut cut = cut_neighbourhood(root_.mesh, place.face, rings);
+  CutOut cut = cut_neighbourhood(root_.mesh, place.face, mask_rings);
   int face = cut.face_index.at(place.face);
   Vec3 origin = Vec3::Zero();
   const FromCorner from = from_corner(triangular(), u, v);
@@ -81,7 +81,7 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
   const bool is_apex = from.distance == 0 && root_.mesh.vertex_cone[static_cast<std::size_t>(start)];
   std::deque<Vec3> normals;
   int level = 0;
-  for (; level < most_levels; ++level) {
+  for (; level < most_mask_levels; ++level) {
     origin += cut.mesh.recentre(cut.mesh.face_vertices[face][0]);
     double size = 0;
     for (const int vertex : cut.mesh.face_vertices[face])
@@ -93,11 +93,11 @@ std::optional<LimitSample> MaskOracle::evaluate(const SurfaceParameter& paramete
     const ChildPlace in = child_place(triangular(), u, v);
     u = in.u, v = in.v;
     const int child = fine.face_children[face][in.child];
-    cut = cut_neighbourhood(fine.mesh, child, rings);
+    cut = cut_neighbourhood(fine.mesh, child, mask_rings);
     face = cut.face_index.at(child);
   }
   const bool has_settled =
-      !is_apex && level < most_levels && angle_between_units(normals.front(), normals.back()) <= settled;
+      !is_apex && level < most_mask_levels && angle_between_units(normals.front(), normals.back()) <= settled;
   return LimitSample{origin, has_settled ? normals.back() : Vec3::Zero(), std::nullopt};
 }
 
