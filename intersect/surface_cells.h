@@ -5,6 +5,7 @@
 
 #include "bvh.h"
 #include "counters.h"
+#include "net_evaluation.h"
 #include "parts.h"
 #include "patch_budget.h"
 #include "squared_distance.h"
@@ -67,8 +68,9 @@ class PolynomialCell final : public SurfaceCell {
   }
   double least_length(const Eigen::Matrix3d& map, const Vec3& offset, const Parameter& at) const override;
   std::optional<CellSample> sample(const Parameter& at) const override {
-    const Bezier patch = net_.bezier<Bezier>();
-    return CellSample{at, patch.position(at), patch.derivatives(at)};
+    const std::array<double, 48> points = by_coordinate(net_);
+    const Jet jet = shaolin::jet(SplineWindow<Bezier>(points.data(), 4, RowMap<Bezier>::identity()), at);
+    return CellSample{at, jet.position, jet.derivatives};
   }
   bool is_triangular() const override { return Bezier::DomainType::corner_count == 3; }
 
