@@ -51,7 +51,7 @@ class Variation {
     return static_cast<std::uint8_t>(std::min<std::uint64_t>(code, infinite));
   }
   static double value(std::uint8_t code) {
-    const double finite = std::bit_cast<double>((std::uint64_t{code} << 48) + least);
+    const auto finite = std::bit_cast<double>((std::uint64_t{code} << 48) + least);
     return code == infinite ? std::numeric_limits<double>::infinity() : finite;
   }
 

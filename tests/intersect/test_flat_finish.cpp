@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE("A piece varies no more than its bounds say", "[intersect][fi
   double fullest = 0;
   for (int k = 0; k < 400; ++k) {
     const double scale = std::exp2(random.uniform(-30, 30));
-    const TestType patch = bent_patch<TestType>(random, scale, random.uniform(0, 0.2));
+    const auto patch = bent_patch<TestType>(random, scale, random.uniform(0, 0.2));
     const Variation variation = Variation::of<TestType>(Net(patch));
     const Derivatives centre = patch.derivatives(D::centre());
     Eigen::Matrix3d basis;
@@ -109,7 +109,8 @@ TEST_CASE("Nothing is said of needles and of points", "[intersect][finish]") {
   BezierQuad point, needle;
   for (std::size_t k = 0; k < 16; ++k) {
     point.b[k] = Vec3(1, 2, 3);
-    needle.b[k] = Vec3(static_cast<double>(k % 4), 1e-8 * static_cast<double>(k / 4), 0);
+    const std::size_t row = k / 4;
+    needle.b[k] = Vec3(static_cast<double>(k % 4), 1e-8 * static_cast<double>(row), 0);
   }
   CHECK(Variation::of<BezierQuad>(Net(point)).of_du(Variation::along_su) == infinity);
   CHECK(Variation::of<BezierQuad>(Net(needle)).of_du(Variation::along_su) < infinity);
@@ -125,7 +126,7 @@ TEMPLATE_TEST_CASE("Clear hits and misses of flat pieces are as they are known",
   int aimed = 0, found = 0, missing = 0, none = 0;
   for (int k = 0; k < 6000; ++k) {
     const double scale = std::exp2(random.uniform(-12, 20));
-    const TestType patch = bent_patch<TestType>(random, scale, random.uniform(0, 0.05));
+    const auto patch = bent_patch<TestType>(random, scale, random.uniform(0, 0.05));
     const Flat<TestType> flat(patch);
     const Parameter at = random_parameter<D>(random);
     const Ray ray = ray_through(patch.position(at), scale, random);
@@ -176,8 +177,9 @@ TEST_CASE("Flat pieces of spline patches are met where the whole is", "[intersec
   int found = 0;
   for (int k = 0; k < 3000; ++k) {
     std::array<Vec3, 16> spline;
-    for (std::size_t i = 0; i < 16; ++i)
-      spline[i] = Vec3(static_cast<double>(i % 4), static_cast<double>(i / 4), 0) + 0.4 * random.point();
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t i = 0; i < 4; ++i)
+        spline[4 * row + i] = Vec3(static_cast<double>(i), static_cast<double>(row), 0) + 0.4 * random.point();
     const BezierQuad whole = BezierQuad::from_spline(spline);
     BezierQuad places;
     places.b = spline;
@@ -201,7 +203,7 @@ TEST_CASE("Flat pieces of spline patches are met where the whole is", "[intersec
 TEST_CASE("What lies before or behind the ray's interval is no clear hit", "[intersect][finish]") {
   using Verdict = FlatFinish<BezierQuad>::Verdict;
   Random random(14);
-  const BezierQuad patch = bent_patch<BezierQuad>(random, 1, 0.05);
+  const auto patch = bent_patch<BezierQuad>(random, 1, 0.05);
   const Flat<BezierQuad> flat(patch);
   Ray ray;
   const Derivatives d = patch.derivatives({0.4, 0.6});

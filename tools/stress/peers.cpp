@@ -77,7 +77,7 @@ QueriesOf Peers::beside(QueriesOf own, std::string family, std::string scheme) {
     const double far_off = 0.01 * (scene.bounds().upper - scene.bounds().lower).stableNorm();
     queries.intersect = [this, family, far_off, ask = queries.intersect,
                          peers = peers_of(mesh, scheme, level_)](const Ray& ray) {
-      const std::optional<Hit> hit = ask(ray);
+      std::optional<Hit> hit = ask(ray);
       if (!is_for_peers(ray)) return hit;
       const double room = far_off / ray.direction.stableNorm();
       for (const Peer& peer : peers) {
