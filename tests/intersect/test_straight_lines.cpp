@@ -44,7 +44,7 @@ class TangentRays {
 
 }  // namespace
 
-TEST_CASE("A ray along a straight line of the surface is met where all its hits begin", "[intersect][all_hits]") {
+TEST_CASE("A ray along a straight line of the surface is met where all its hits begin", "[intersect][all_hits][sweep]") {
   int rays = 0;
   for (const Model& model : all_models()) {
     if (model.name != "rook" && model.name != "cube_creases" && model.name != "catmark_dart_edgecorner") continue;
