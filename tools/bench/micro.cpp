@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "intersect/face_bounds.h"
+#include "intersect/flat_finish.h"
 #include "intersect/newton_finish.h"
 #include "intersect/parts.h"
 #include "intersect/ray_frame.h"
@@ -29,6 +30,7 @@ constexpr int most_faces = 256;
 /// is wide.
 struct Cell {
   Net met, missed;
+  TraversalRay met_by{Ray()}, missed_by{Ray()};  ///< the same rays, for the polynomial in space
   double error;
 };
 
@@ -55,6 +57,8 @@ struct Subject {
   void add(const Polynomial& polynomial) {
     polynomials.push_back(polynomial);
     nets.emplace_back(polynomial);
+    points.push_back(by_coordinate(nets.back()));
+    variations.push_back(Variation::of<Polynomial>(nets.back()));
     const Box box = hull_of(nets.back());
     const Vec3 point = polynomial.position({0.15, 0.25});
     const Vec3 along_u = Polynomial::mean_du(polynomial.b);
@@ -66,6 +70,7 @@ struct Subject {
       ray.direction = -normal;
       const RayFrame frame(TraversalRay(ray), normal);
       frame.project(nets.back(), met ? cell.met : cell.missed);
+      (met ? cell.met_by : cell.missed_by) = TraversalRay(ray);
       cell.error = RayFrame::error(TraversalRay(ray).origin, box);
     }
     cells.push_back(cell);
@@ -76,6 +81,8 @@ struct Subject {
   std::vector<Patch<S>> irregular;
   std::vector<Polynomial> polynomials;
   std::vector<Net> nets;
+  std::vector<std::array<double, 48>> points;  ///< of the nets
+  std::vector<Variation> variations;
   std::vector<Cell> cells;
 };
 
@@ -120,6 +127,20 @@ void add_all(const std::string& model, ControlMesh mesh) {
     NewtonFinish<Polynomial> finish(error, 0, std::numeric_limits<double>::infinity(), false, counters);
     return finish.solve(cell);
   };
+  const auto decide = [=](std::size_t i, bool met) {
+    const Cell& cell = subject->cells[i];
+    const SplineWindow<Polynomial> window(subject->points[i].data(), 4, RowMap<Polynomial>::identity());
+    RayCounters counters;
+    PatchHit hit;
+    return FlatFinish<Polynomial>(window, Pieces<Polynomial>::domain(0), subject->variations[i])
+        .solve(met ? cell.met_by : cell.missed_by, std::numeric_limits<double>::infinity(), false, cell.error, false,
+               counters, hit);
+  };
+  add(name("how a polynomial varies"), subject->nets.size(),
+      [=](std::size_t i) { return Variation::of<Polynomial>(subject->nets[i]).of_du(Variation::along_n); });
+  add(name("decide a flat piece that is missed"), subject->cells.size(),
+      [=](std::size_t i) { return decide(i, false); });
+  add(name("decide a flat piece that is met"), subject->cells.size(), [=](std::size_t i) { return decide(i, true); });
   add(name("test a cell that is missed"), subject->cells.size(),
       [=](std::size_t i) { return solve(subject->cells[i].missed, subject->cells[i].error); });
   add(name("find a hit by Newton steps"), subject->cells.size(),
