@@ -41,7 +41,7 @@ class FlatFinish {
  public:
   enum class Verdict { none, found, unknown };
 
-  /// A piece of a patch, which must outlive this.
+  /// A piece of a patch. All three must outlive this.
   FlatFinish(const SplineWindow<Bezier>& patch, const SubDomain& piece, const Variation& variation)
       : patch_(patch), piece_(piece), variation_(variation) {}
 
