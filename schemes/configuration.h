@@ -1,6 +1,8 @@
 #pragma once
 /// A configuration: the topology and sharpness around a face, shared by all patches that look alike.
+#include <array>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -228,6 +230,17 @@ class ConfigurationTable {
     return {at->second.get(), std::move(form.vertices)};
   }
 
+  /// The configuration of plain faces (plain_face.h) whose corners have these valences; null until it is kept.
+  const Configuration<S>* plain(const std::array<int, 4>& valences) const {
+    const std::lock_guard lock(mutex_);
+    const auto at = plain_.find(valences);
+    return at == plain_.end() ? nullptr : at->second;
+  }
+  void keep_plain(const std::array<int, 4>& valences, const Configuration<S>* configuration) {
+    const std::lock_guard lock(mutex_);
+    plain_.emplace(valences, configuration);
+  }
+
   typename Configuration<S>::Child child(const Configuration<S>& parent, int k) {
     Refinement refinement(parent.neighbourhood(), S::face_kind, rules_.creases);
     const Match match = this->match(refinement.child(k, rules_.radius()));
@@ -278,6 +291,7 @@ class ConfigurationTable {
   bool is_convex_;
   mutable std::mutex mutex_;
   std::unordered_map<std::vector<int>, std::unique_ptr<Configuration<S>>, KeyHash> configurations_;
+  std::map<std::array<int, 4>, const Configuration<S>*> plain_;  ///< by the valences of the corners
 };
 
 }  // namespace shaolin

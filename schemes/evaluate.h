@@ -1,7 +1,6 @@
 #pragma once
 /// Evaluation of a patch anywhere: split until the parameter lies in a regular piece.
 #include <cmath>
-#include <limits>
 
 #include "corner_limit.h"
 #include "whitening.h"
@@ -17,17 +16,9 @@ constexpr int most_levels = 1100;
 /// The corner of the domain that a parameter is nearest to.
 template <Scheme S>
 int nearest_corner(const Parameter& p) {
-  using D = Domain<S::face_kind>;
-  int best = 0;
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < D::corners.size(); ++k) {
-    const double distance = std::hypot(p.x() - D::corners[k][0], p.y() - D::corners[k][1]);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = static_cast<int>(k);
-    }
-  }
-  return best;
+  const bool right = p.x() > 0.5, above = p.y() > 0.5;
+  if (S::face_kind == FaceKind::quad) return above ? (right ? 2 : 3) : right;
+  return above ? 2 : right;
 }
 
 template <Scheme S>

@@ -1,5 +1,6 @@
 #pragma once
 /// Subdivision meshes: global and local refinement, parent and child, limit points and normals, chord normals.
+#include <cassert>
 #include <memory>
 #include <mutex>
 #include <type_traits>
@@ -8,6 +9,7 @@
 #include "evaluate.h"
 #include "mesh.h"
 #include "patch.h"
+#include "plain_face.h"
 
 namespace shaolin {
 
@@ -48,11 +50,16 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
 
   /// The patch of a face, seen from one of its corners, as a value of its own. O(size of its neighbourhood).
   Patch<S> patch(Mesh::Corner corner) const {
-    auto match = table_->match(this->neighbourhood(corner, rules().radius()));
-    Patch<S> result{match.configuration, {}};
-    result.points.reserve(match.vertices.size());
-    for (const int vertex : match.vertices) result.points.push_back(this->point(vertex));
-    return result;
+    std::optional<PlainFace> plain;
+    if (rules().radius() == 1) plain = plain_face(*this, corner);
+    if (plain)
+      if (const Configuration<S>* known = table_->plain(plain->valences)) return patch(known, plain->vertices);
+    const auto match = table_->match(this->neighbourhood(corner, rules().radius()));
+    if (plain) {
+      assert(match.vertices == plain->vertices);
+      table_->keep_plain(plain->valences, match.configuration);
+    }
+    return patch(match.configuration, match.vertices);
   }
 
   /// The configurations of the patches of all levels.
@@ -96,6 +103,13 @@ class SubdivisionMesh : public std::conditional_t<S::face_kind == FaceKind::tria
     for (int f = 0; f < control.face_count(); ++f) most = std::max(most, control.face_size(f));
     const bool is_convex = has_convex_masks(rules, most);
     return std::make_shared<ConfigurationTable<S>>(std::move(rules), is_convex);
+  }
+
+  Patch<S> patch(const Configuration<S>* configuration, const std::vector<int>& vertices) const {
+    Patch<S> result{configuration, {}};
+    result.points.reserve(vertices.size());
+    for (const int vertex : vertices) result.points.push_back(this->point(vertex));
+    return result;
   }
 
   /// Edges are numbered among themselves, and so are sides between equal vertices, when a number is first asked for.
