@@ -30,6 +30,11 @@ Vec3 seen(const Vec3& from, const Vec3& to, const Vec3& direction) {
 
 }  // namespace
 
+SurfaceParameter nearest_corner(const SurfaceParameter& at, bool triangular) {
+  const Parameter corner = corner_of(at, triangular);
+  return {at.face, at.sub, corner.x(), corner.y()};
+}
+
 bool is_at_corner(const SurfaceParameter& at) {
   const auto is_end = [](double x) { return x < 1e-6 || x > 1 - 1e-6; };
   return is_end(at.u) && is_end(at.v);
@@ -71,9 +76,9 @@ std::optional<CornerDisk> CornerDisk::around(std::span<const SurfaceParameter> p
     const SurfaceParameter& nearest = *std::min_element(
         of_face.begin(), of_face.end(),
         [&](const SurfaceParameter& a, const SurfaceParameter& b) { return from_nearest(a) < from_nearest(b); });
-    const Parameter corner = corner_of(nearest, triangular);
-    disk.corners_.push_back({first.face, first.sub, corner.x(), corner.y()});
-    for (const SurfaceParameter& at : of_face) disk.radius_ = std::max(disk.radius_, 2 * distance_from(corner, at));
+    const SurfaceParameter& corner = disk.corners_.emplace_back(nearest_corner(nearest, triangular));
+    for (const SurfaceParameter& at : of_face)
+      disk.radius_ = std::max(disk.radius_, 2 * distance_from({corner.u, corner.v}, at));
     i = end;
   }
   constexpr double largest = 0.5;

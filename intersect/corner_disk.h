@@ -15,6 +15,9 @@ class LimitSurface;
 /// True within 1e-6 of a corner of the face.
 bool is_at_corner(const SurfaceParameter& at);
 
+/// The corner of its face that a place is nearest to.
+SurfaceParameter nearest_corner(const SurfaceParameter& at, bool triangular);
+
 /// The places so far from a corner of a face on its two sides there: on the one that leads to the next vertex,
 /// counter-clockwise, and on the one that comes from the last. `far` is in parameters, in (0, 1].
 std::pair<Parameter, Parameter> sides_at(const Parameter& corner, double far, bool triangular);

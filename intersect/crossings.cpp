@@ -21,32 +21,44 @@ namespace {
 /// this for R = L / 25. Where nothing is proven of a contact, smaller ones have no sign.
 constexpr double grazing = 1e-6;
 
-/// Whether a ray goes on through the surface at a contact, and does not touch it to within rounding. At a cosine c and
-/// a normal curvature k along the ray it goes in by c^2 / (2 k) before it comes out again, 2 c / k farther on; or, on a
-/// flat face of extent s, by c s at most. Below 16 times the error the two ends of the way may not be told apart: one
-/// may be found and proven and the other not, or both be one contact. The rule is the same at both, for c and k are the
-/// same at both up to terms of third order; so they cancel, whichever way it decides.
-bool goes_through(const Contact& contact, const Derivatives& d, double cosine, const Vec3& direction) {
-  constexpr double depth = 16;
+/// How a ray goes on at a contact: to one side of the surface, until it comes out again.
+struct Way {
+  int side;       ///< the sign of n.d
+  double depth;   ///< in errors of the contact
+  double length;  ///< along the ray
+
+  /// Below this depth the two ends of a way may not be told apart: one may be found and proven and the other not, or
+  /// both be one contact.
+  static constexpr double least_depth = 16;
+  bool is_deep() const { return depth > least_depth; }
+};
+
+/// At a cosine c and a normal curvature k along the ray it goes in by c^2 / (2 k) before it comes out again, 2 c / k
+/// farther on; or, on a flat face of extent s, by c s at most.
+Way way_by_curvature(const Contact& contact, const Derivatives& d, double cosine, const Vec3& direction) {
+  const int side = cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
+  const double c = std::abs(cosine);
   const Vec3& normal = contact.hit.sample.normal;
   Eigen::Matrix2d metric;
   metric << d.du.dot(d.du), d.du.dot(d.dv), d.du.dot(d.dv), d.dv.dot(d.dv);
-  const Eigen::Vector2d way = metric.inverse() * Eigen::Vector2d(d.du.dot(direction), d.dv.dot(direction));
-  const double curvature = std::abs(normal.dot(d.duu) * way.x() * way.x() + 2 * normal.dot(d.duv) * way.x() * way.y() +
-                                    normal.dot(d.dvv) * way.y() * way.y());
-  if (!std::isfinite(curvature)) return contact.is_proven || std::abs(cosine) > grazing;
+  const Eigen::Vector2d along = metric.inverse() * Eigen::Vector2d(d.du.dot(direction), d.dv.dot(direction));
+  const double curvature =
+      std::abs(normal.dot(d.duu) * along.x() * along.x() + 2 * normal.dot(d.duv) * along.x() * along.y() +
+               normal.dot(d.dvv) * along.y() * along.y());
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(curvature)) return {side, contact.is_proven || c > grazing ? infinity : 0, 0};
   const double extent = d.du.norm() + d.dv.norm();
-  return cosine * cosine > 2 * depth * contact.error * curvature && std::abs(cosine) * extent > depth * contact.error;
+  const double depth = std::min(curvature > 0 ? c * c / (2 * curvature) : infinity, c * extent);
+  return {side, depth / contact.error, curvature > 0 ? 2 * c / curvature : infinity};
 }
 
-int sign(const Contact& contact, const Vec3& direction) {
+Way way_of(const Contact& contact, const Vec3& direction) {
   const double cosine = contact.hit.sample.normal.dot(direction);
   const auto& derivatives = contact.hit.sample.derivatives;
   // (At a corner, patches may be all of one curvature and size, or of any.)
-  const bool counts = derivatives && !is_at_corner(contact.hit.at)
-                          ? goes_through(contact, *derivatives, cosine, direction)
-                          : contact.is_proven || std::abs(cosine) > grazing;
-  return !counts ? 0 : cosine > 0 ? 1 : cosine < 0 ? -1 : 0;
+  if (derivatives && !is_at_corner(contact.hit.at)) return way_by_curvature(contact, *derivatives, cosine, direction);
+  const bool counts = contact.is_proven || std::abs(cosine) > grazing;
+  return {cosine > 0 ? 1 : cosine < 0 ? -1 : 0, counts ? std::numeric_limits<double>::infinity() : 0, 0};
 }
 
 bool share_vertex(const ControlMesh& mesh, int a, int b) {
@@ -55,17 +67,51 @@ bool share_vertex(const ControlMesh& mesh, int a, int b) {
   return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-/// Contacts that are one crossing, in the order of (face, sub).
+/// The side that a ray goes to at a contact, 0 if that is hidden by rounding.
+struct Side {
+  int sign;
+  bool is_open;  ///< 0, though the ray is not along the surface
+};
+
+/// Of contacts in ascending order of distance; `group` tells which are one place. Where the way is not deep, the other
+/// end of it decides: if that is a place of its own, both count and cancel, otherwise the ray touches. (Depth alone
+/// would not do: it is the same at both ends up to terms of third order only.)
+std::vector<Side> sides_of(std::span<const Contact> contacts, std::span<const std::size_t> group,
+                          const ControlMesh& mesh, const Vec3& direction) {
+  std::vector<Way> ways;
+  for (const Contact& contact : contacts) ways.push_back(way_of(contact, direction));
+  // What terms of third order may make of lengths and depths; how many contacts are asked to either side (of a curve of
+  // contact there are any number).
+  constexpr double longer = 4, deeper = 16;
+  constexpr std::size_t most = 16;
+  const auto are_ends = [&](std::size_t i, std::size_t j) {
+    return ways[j].side == -ways[i].side && group[j] != group[i] && ways[j].depth <= deeper * Way::least_depth &&
+           std::abs(contacts[j].distance - contacts[i].distance) <= longer * ways[i].length &&
+           share_vertex(mesh, contacts[i].hit.at.face, contacts[j].hit.at.face);
+  };
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    bool counts = ways[i].is_deep();
+    if (!counts && ways[i].depth > 0)
+      for (std::size_t j = i - std::min(i, most); !counts && j < std::min(ways.size(), i + most); ++j)
+        counts = are_ends(i, j);
+    sides.push_back({counts ? ways[i].side : 0, !counts && ways[i].side != 0});
+  }
+  return sides;
+}
+
+/// Contacts that are one crossing, in the order of (face, sub), and the sides that the ray goes to at them.
 class Place {
  public:
-  Place(std::span<const Contact> contacts, const Vec3& direction) : contacts_(contacts) {
+  Place(std::span<const Contact> contacts, std::span<const Side> sides) : contacts_(contacts) {
     const auto face_of = [](const Contact& contact) { return std::tie(contact.hit.at.face, contact.hit.at.sub); };
     for (std::size_t i = 0; i < contacts.size();) {
       int least = 1, most = -1;
       const std::size_t first = i;
       for (; i < contacts.size() && face_of(contacts[i]) == face_of(contacts[first]); ++i) {
-        least = std::min(least, sign(contacts[i], direction));
-        most = std::max(most, sign(contacts[i], direction));
+        least = std::min(least, sides[i].sign);
+        most = std::max(most, sides[i].sign);
+        is_open_ |= sides[i].is_open;
       }
       faces_.emplace_back(contacts[first].hit.at, std::clamp(least + most, -1, 1));
       is_mixed_ |= least < 0 && most > 0;
@@ -97,6 +143,9 @@ class Place {
   /// All contacts have one sign.
   bool is_clear() const { return !is_mixed_ && has(1) + has(0) + has(-1) == 1; }
 
+  /// No contact has a sign, one for rounding alone.
+  bool is_open() const { return is_open_ && !has(1) && !has(-1); }
+
   /// How often the faces turn around the ray, by the share that each takes.
   int turns(const LimitSurface& surface, const Vec3& direction) const {
     if (!is_mixed_ && !(has(1) && has(-1))) return has(1) - has(-1);
@@ -107,11 +156,19 @@ class Place {
     return static_cast<int>(std::round(sum / (2 * std::numbers::pi)));
   }
 
-  /// A disk that holds all contacts.
-  std::optional<CornerDisk> disk(bool triangular) const {
+  /// A disk that holds all contacts; of an open place, of all faces around the vertex that is nearest to the first.
+  std::optional<CornerDisk> disk(const LimitSurface& surface) const {
     std::vector<SurfaceParameter> all;
     for (const Contact& contact : contacts_) all.push_back(contact.hit.at);
-    return CornerDisk::around(all, triangular);
+    if (is_open()) {
+      const std::vector<SurfaceParameter> around =
+          surface.corners_around(nearest_corner(all.front(), surface.triangular()));
+      all.insert(all.end(), around.begin(), around.end());
+      std::sort(all.begin(), all.end(), [](const SurfaceParameter& x, const SurfaceParameter& y) {
+        return std::tie(x.face, x.sub, x.u, x.v) < std::tie(y.face, y.sub, y.u, y.v);
+      });
+    }
+    return CornerDisk::around(all, surface.triangular());
   }
   /// By how much coordinates across the ray may be off.
   double error() const {
@@ -128,6 +185,7 @@ class Place {
   std::span<const Contact> contacts_;
   std::vector<std::pair<SurfaceParameter, int>> faces_;  ///< a contact of each face, and the sum of signs, in [-1, 1]
   bool is_mixed_ = false;                                ///< some face has both
+  bool is_open_ = false;
 };
 
 /// How often a disk around the place is crossed in all, less what other places in it say; empty where that is unknown.
@@ -135,7 +193,7 @@ std::optional<int> turns_within_disk(const Place& place, std::span<const Place> 
                                      const Vec3& direction) {
   // Errors: of the contact on the ray two, of a point of the rim one, and the rim's steps are chords.
   constexpr double clearance = 16;
-  std::optional<CornerDisk> disk = place.disk(surface.triangular());
+  std::optional<CornerDisk> disk = place.disk(surface);
   if (!disk) return {};
   std::optional<int> turns =
       disk->grow_and_wind(surface, place.surest().hit.sample.position, direction, clearance * place.error());
@@ -149,8 +207,11 @@ std::optional<int> turns_within_disk(const Place& place, std::span<const Place> 
 
 /// At one of the ray's places.
 Sense sense_of(const Place& place, std::span<const Place> places, const LimitSurface& surface, const Vec3& direction) {
+  // Of a ray that runs along the surface there are any number of places, and open ones say nothing.
+  constexpr std::size_t most_places = 64;
   std::optional<int> turns;
-  if (!place.is_clear()) turns = turns_within_disk(place, places, surface, direction);
+  if (!place.is_clear() || (place.is_open() && places.size() <= most_places))
+    turns = turns_within_disk(place, places, surface, direction);
   if (!turns) turns = place.turns(surface, direction);
   return *turns > 0 ? Sense::leaves : *turns < 0 ? Sense::enters : Sense::touches;
 }
@@ -202,13 +263,19 @@ std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurfac
     return std::tuple(group[i], contacts[i].hit.at.face, contacts[i].hit.at.sub, i);
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return in_group(a) < in_group(b); });
+  const std::vector<Side> sides = sides_of(contacts, group, mesh, direction);
   std::vector<Contact> ordered;
-  for (const std::size_t i : order) ordered.push_back(contacts[i]);
+  std::vector<Side> ordered_sides;
+  for (const std::size_t i : order) {
+    ordered.push_back(contacts[i]);
+    ordered_sides.push_back(sides[i]);
+  }
   std::vector<Place> places;
   for (std::size_t i = 0; i < order.size();) {
     const std::size_t begin = i;
     while (i < order.size() && group[order[i]] == group[order[begin]]) ++i;
-    places.emplace_back(std::span<const Contact>(ordered).subspan(begin, i - begin), direction);
+    places.emplace_back(std::span<const Contact>(ordered).subspan(begin, i - begin),
+                        std::span<const Side>(ordered_sides).subspan(begin, i - begin));
   }
 
   std::vector<Crossing> result;

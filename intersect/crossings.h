@@ -61,7 +61,9 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). Where faces
 /// do not agree at a vertex, a disk around it tells (corner_disk.h). Elsewhere a face counts pi (of its edge, or of all
 /// of its inner points), and of a corner the angle between its sides; contacts of one face with opposite signs (a double
-/// root) cancel. O(n log n + n f) for contacts of f faces, and evaluations at vertices.
+/// root) cancel. Where a ray goes in by less than rounding can tell before it comes out again, it touches, unless both
+/// ends are found; if one is near a vertex, a disk around that tells. O(n log n + n f) for contacts of f faces, and
+/// evaluations at vertices.
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
                                 const ClosestBetween& closest);
 
