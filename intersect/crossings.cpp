@@ -77,7 +77,7 @@ struct Side {
 /// end of it decides: if that is a place of its own, both count and cancel, otherwise the ray touches. (Depth alone
 /// would not do: it is the same at both ends up to terms of third order only.)
 std::vector<Side> sides_of(std::span<const Contact> contacts, std::span<const std::size_t> group,
-                          const ControlMesh& mesh, const Vec3& direction) {
+                           const ControlMesh& mesh, const Vec3& direction) {
   std::vector<Way> ways;
   for (const Contact& contact : contacts) ways.push_back(way_of(contact, direction));
   // What terms of third order may make of lengths and depths; how many contacts are asked to either side (of a curve of

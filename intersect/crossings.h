@@ -54,16 +54,16 @@ inline double contact_uncertainty(double error, double reach, double cosine) {
 /// A ray through an edge or a vertex is reported by all faces there, or by some. Contacts are one crossing if they are
 /// no farther apart than their uncertainties together and belong to one face, or to faces that share a vertex. The
 /// nearest stands for all, or the least uncertain that may be the same point (at a corner a ray may graze one face and
-/// cross another); of equal ones that of the lowest face and sub. If the nearest is coarse (of a ray that runs along the
-/// surface), the closest hit does that lies where the contacts may be; without one there is no crossing.
+/// cross another); of equal ones that of the lowest face and sub. If the nearest is coarse (of a ray that runs along
+/// the surface), the closest hit does that lies where the contacts may be; without one there is no crossing.
 ///
 /// Which way it goes is a matter of winding: around the ray, the faces at the point turn by 2 pi in all if the surface
 /// crosses it there, with the sign of n.d, and by 0 if the surface touches it (an edge seen as an outline). Where faces
 /// do not agree at a vertex, a disk around it tells (corner_disk.h). Elsewhere a face counts pi (of its edge, or of all
-/// of its inner points), and of a corner the angle between its sides; contacts of one face with opposite signs (a double
-/// root) cancel. Where a ray goes in by less than rounding can tell before it comes out again, it touches, unless both
-/// ends are found; if one is near a vertex, a disk around that tells. O(n log n + n f) for contacts of f faces, and
-/// evaluations at vertices.
+/// of its inner points), and of a corner the angle between its sides; contacts of one face with opposite signs (a
+/// double root) cancel. Where a ray goes in by less than rounding can tell before it comes out again, it touches,
+/// unless both ends are found; if one is near a vertex, a disk around that tells. O(n log n + n f) for contacts of f
+/// faces, and evaluations at vertices.
 std::vector<Crossing> crossings(std::vector<Contact> contacts, const LimitSurface& surface, const Vec3& direction,
                                 const ClosestBetween& closest);
 
