@@ -19,6 +19,8 @@ namespace shaolin {
 /// Other hits are converged: a point of the surface that lies on the ray to within rounding. Whether the ray crosses
 /// there, touches, or passes at a distance that rounding hides is open: at outlines, within rounding of creases and
 /// boundaries, at extraordinary points, and where the surface has no polynomials. So are the hits of other methods.
+/// Scene::certify() proves of most of those at creases and extraordinary points, and of others, that a disk of the
+/// surface around the hit, across its patches, is crossed once (disk_proof.h). They are certified then, too.
 ///
 /// A miss needs no certificate: the exact method drops what it passes on proof alone.
 struct Certificate {

@@ -162,7 +162,7 @@ class Place {
     for (const Contact& contact : contacts_) all.push_back(contact.hit.at);
     if (is_open()) {
       const std::vector<SurfaceParameter> around =
-          surface.corners_around(nearest_corner(all.front(), surface.triangular()));
+          surface.places_of(nearest_corner(all.front(), surface.triangular())).all;
       all.insert(all.end(), around.begin(), around.end());
       std::sort(all.begin(), all.end(), [](const SurfaceParameter& x, const SurfaceParameter& y) {
         return std::tie(x.face, x.sub, x.u, x.v) < std::tie(y.face, y.sub, y.u, y.v);

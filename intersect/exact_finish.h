@@ -88,11 +88,15 @@ class ExactFinish {
     Parameter radius = PatchHit::nothing_proven();  ///< see PatchHit
     double error = 0;                               ///< of coordinates in the ray's frame
 
-    /// See certificate.h.
-    bool is_certified() const {
+    /// See certificate.h. Across a side of the face there may be none that has a limit.
+    bool is_certified(const SchemeSurface<S>& surface) const {
       const double largest = radius.maxCoeff();
       if (!(largest < 1) || !patch->is_polynomial()) return false;
-      return D::contains(at, radius) || (largest <= smooth_radius && polynomial_of(*patch).is_smooth_across());
+      if (D::contains(at, radius)) return true;
+      if (!(largest <= smooth_radius && polynomial_of(*patch).is_smooth_across())) return false;
+      if (surface.mesh().all_have_limit()) return true;
+      const SubDomain& domain = patch->place().domain();
+      return D::contains(domain(at), domain.scale.cwiseAbs().cwiseProduct(radius));
     }
   };
 
@@ -120,7 +124,7 @@ class ExactFinish {
     }
     const Jet jet = this->jet(found);
     hit.sample = sample(*found.patch, jet, hit.at, surface);
-    if (found.is_certified()) hit.certificate = {Certificate::Status::certified, 0, position_error(found, jet)};
+    if (found.is_certified(surface)) hit.certificate = {Certificate::Status::certified, 0, position_error(found, jet)};
     return hit;
   }
 

@@ -60,6 +60,9 @@ class Object {
   /// True if any point of the surface lies on the ray; as intersect(), cheaper.
   virtual bool occluded(const Ray& ray, RayCounters& counters) const = 0;
 
+  /// See Scene::certify().
+  virtual Certificate certify(const Ray& ray, const Hit& hit) const = 0;
+
   /// The closest place within the query's radius, or empty: of its answer, all but distance and instance, in the
   /// object's space. Throws InputError unless the method is exact.
   virtual std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const = 0;

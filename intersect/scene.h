@@ -60,6 +60,12 @@ class Scene {
   /// method is not exact.
   std::vector<Crossing> all_hits(const Ray& ray) const;
 
+  /// A certificate for a hit of this scene on this ray, by more work than a ray is given: where patches meet, at edges,
+  /// creases and vertices, a disk of the surface is shown to be crossed once (disk_proof.h). That of the hit if it is
+  /// certified, or if nothing is proven: along tangents, at outlines and boundaries, and where the method is not exact.
+  /// Some 0.1 to 1 ms. Throws InputError if the scene has no such instance or surface place, or the ray no direction.
+  Certificate certify(const Ray& ray, const Hit& hit) const;
+
   /// The number of hits that are crossings, not touches: even for a ray without limits and a closed surface, odd from
   /// inside of it. Throws as all_hits() does.
   std::size_t count(const Ray& ray) const;

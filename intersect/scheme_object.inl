@@ -2,6 +2,7 @@
 /// The definition of make_scheme_object().
 #include "a3_finish.h"
 #include "chord_finish.h"
+#include "disk_proof.h"
 #include "exact_finish.h"
 #include "scheme_object.h"
 #include "shaolin.h"
@@ -32,6 +33,15 @@ class SchemeObject final : public Object {
       return intersector_.all_hits(ray, counters);
     else
       throw InputError("all hits are those of the limit surface; expected an object of Method::exact");
+  }
+  Certificate certify(const Ray& ray, const Hit& hit) const override {
+    // Methods that find all hits are exact.
+    if constexpr (requires(RayCounters & counters) { intersector_.all_hits(ray, counters); }) {
+      const TraversalRay traversal(ray);
+      if (const auto error = DiskProof<S>(surface_, traversal).error_at(hit.at, hit.sample.position))
+        return {Certificate::Status::certified, hit.certificate.residual, *error};
+    }
+    return hit.certificate;
   }
   std::optional<ClosestPoint> closest_point(const PointQuery& query, RayCounters& counters) const override {
     if constexpr (requires { intersector_.closest_point(query, counters); })

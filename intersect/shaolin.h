@@ -108,9 +108,9 @@ class ShaoLin {
   }
   const StartPatch& make_start_patch(int primitive) const;
   /// Finishes that certify say so of what they find; of others nothing is certified.
-  static bool is_certified(const Found& found) {
-    if constexpr (requires { found.is_certified(); })
-      return found.is_certified();
+  bool is_certified(const Found& found) const {
+    if constexpr (requires { found.is_certified(surface_); })
+      return found.is_certified(surface_);
     else
       return false;
   }

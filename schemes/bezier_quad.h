@@ -106,6 +106,14 @@ struct BezierQuad {
     return {low[0], high[0], high[1], low[1]};
   }
 
+  /// The part over the rectangle between two corners, lower and upper.
+  BezierQuad restricted(const Parameter& lower, const Parameter& upper) const {
+    BezierQuad along_u, result;
+    for (std::size_t j = 0; j < 4; ++j) restrict_line(&b[4 * j], &along_u.b[4 * j], 1, lower.x(), upper.x());
+    for (std::size_t i = 0; i < 4; ++i) restrict_line(&along_u.b[i], &result.b[i], 4, lower.y(), upper.y());
+    return result;
+  }
+
   /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
   /// derivative, and of the v derivative, whose hulls hold the derivatives.
   using Pair = std::array<std::uint8_t, 2>;
@@ -155,6 +163,18 @@ struct BezierQuad {
     out[stride] = (2 * p1 + p2) / 3;
     out[2 * stride] = (p1 + 2 * p2) / 3;
     out[3 * stride] = (p1 + 4 * p2 + p[3 * stride]) / 6;
+  }
+
+  /// The cubic's part from one place to another: its blossom at three, two, one and none of the first.
+  static void restrict_line(const Vec3* p, Vec3* out, std::size_t stride, double from, double to) {
+    for (int k = 0; k < 4; ++k) {
+      std::array<Vec3, 4> line{p[0], p[stride], p[2 * stride], p[3 * stride]};
+      for (std::size_t n = 3; n > 0; --n) {
+        const double t = static_cast<int>(n) <= k ? to : from;
+        for (std::size_t i = 0; i < n; ++i) line[i] = (1 - t) * line[i] + t * line[i + 1];
+      }
+      out[static_cast<std::size_t>(k) * stride] = line[0];
+    }
   }
 
   static void halve(const Vec3* p, Vec3* low, Vec3* high, std::size_t stride) {

@@ -74,6 +74,18 @@ struct BezierTriangle {
   /// the middle in the third.
   std::array<BezierTriangle, 2> halves(int side) const;
 
+  /// The part over the triangle with these corners: the blossom at each as often as its exponent says.
+  BezierTriangle restricted(const std::array<Parameter, 3>& to) const {
+    BezierTriangle result;
+    for (int j = 0; j <= degree; ++j)
+      for (int i = 0; i + j <= degree; ++i) {
+        Net net = b;
+        for (int n = degree; n > 0; --n) casteljau(net, n, to[n <= i ? 1 : n <= i + j ? 2 : 0]);
+        result.b[index(i, j)] = net[0];
+      }
+    return result;
+  }
+
   /// Pairs (from, to) of neighbouring control points: degree x their differences are the control points of the u
   /// derivative, and of the v derivative, whose hulls hold the derivatives.
   using Pair = std::array<std::uint8_t, 2>;

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "control_mesh.h"
 #include "limit_sample.h"
+#include "places.h"
 
 namespace shaolin {
 
@@ -30,11 +30,8 @@ class LimitSurface {
   /// O(valence x log2(1 / distance to an irregular corner)).
   virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
 
-  /// The corners of faces that are one vertex of the surface, where `corner` is that of one of them: counter-clockwise
-  /// from there, those that have a limit; of an n-gon's sub (0, 0). Empty for other places, also for those corners of an
-  /// n-gon's sub that are no vertices. Where a non-manifold mesh is cut, a vertex has the faces on this side of the cut.
-  /// Throws InputError as evaluate() does. O(valence).
-  virtual std::vector<SurfaceParameter> corners_around(const SurfaceParameter& corner) const = 0;
+  /// The places that are one point of the surface with `at`, see places.h. Throws InputError as evaluate() does.
+  virtual PointPlaces places_of(const SurfaceParameter& at) const = 0;
 
   /// The control mesh that it was made from.
   virtual const ControlMesh& control_mesh() const = 0;

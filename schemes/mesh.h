@@ -103,6 +103,8 @@ class Mesh {
   /// False for holes and for faces at a boundary that is not interpolated.
   bool has_limit(int face) const { return has_limit_.empty() || has_limit_[static_cast<std::size_t>(face)] != 0; }
 
+  bool all_have_limit() const { return has_limit_.empty(); }
+
   /// A face and a place in its vertices.
   struct Corner {
     int face, place;

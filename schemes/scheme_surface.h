@@ -33,25 +33,9 @@ class SchemeSurface final : public LimitSurface {
     return sample;
   }
 
-  std::vector<SurfaceParameter> corners_around(const SurfaceParameter& corner) const override {
-    check_range(corner);
-    const HalfEdges& half_edges = mesh_.half_edges();
-    const std::optional<int> place = vertex_place(corner);
-    if (!place) return {};
-    std::vector<SurfaceParameter> result;
-    const auto add = [&](int at) {
-      const int face = half_edges.face(at);
-      if (has_limit(face)) result.push_back(parameter(face, half_edges.place(at)));
-    };
-    const int first = half_edges.first(corner.face) + *place;
-    int at = first;
-    do {
-      add(at);
-      at = half_edges.counter_clockwise(at);
-    } while (at >= 0 && at != first);
-    if (at < 0)
-      for (at = half_edges.clockwise(first); at >= 0 && at != first; at = half_edges.clockwise(at)) add(at);
-    return result;
+  PointPlaces places_of(const SurfaceParameter& at) const override {
+    check_range(at);
+    return shaolin::places_of(mesh_, at);
   }
 
   /// The patch of a face, or of an n-gon's corner.
@@ -66,21 +50,6 @@ class SchemeSurface final : public LimitSurface {
   const SubdivisionMesh<S>& mesh() const { return mesh_; }
 
  private:
-  /// Which of its face's vertices a place is; empty if none.
-  std::optional<int> vertex_place(const SurfaceParameter& at) const {
-    for (int k = 0; k < control_->face_size(at.face); ++k) {
-      const SurfaceParameter corner = parameter(at.face, k);
-      if (corner.sub == at.sub && corner.u == at.u && corner.v == at.v) return k;
-    }
-    return {};
-  }
-  /// A face's vertex k.
-  SurfaceParameter parameter(int face, int k) const {
-    if (splits_by_corner(face)) return {face, k, 0, 0};
-    const auto& corner = Domain<S::face_kind>::corners[static_cast<std::size_t>(k)];
-    return {face, 0, corner[0], corner[1]};
-  }
-
   void check_range(const SurfaceParameter& at) const {
     if (at.face < 0 || at.face >= face_count())
       throw InputError("face " + std::to_string(at.face) + " is out of range; expected 0 to " +

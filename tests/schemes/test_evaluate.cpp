@@ -180,41 +180,4 @@ TEMPLATE_TEST_CASE("Vertices of valence 360 and 10,000 evaluate", "[schemes][eva
   }
 }
 
-TEST_CASE("The corners around a vertex are all faces' that meet there, each once", "[schemes][evaluate]") {
-  int vertices = 0;
-  for (const Model& model : all_models()) {
-    INFO(model.name);
-    const auto surface = make_limit_surface(model.mesh, model.scheme);
-    const ControlMesh& mesh = surface->control_mesh();
-    // Faces with a limit by vertex, as often as they have it.
-    std::vector<int> faces(mesh.positions.size(), 0), around(mesh.positions.size(), 0);
-    for (int face = 0; face < mesh.face_count(); ++face)
-      if (surface->has_limit(face))
-        for (const int vertex : mesh.face(face)) ++faces[static_cast<std::size_t>(vertex)];
-    const auto place_of = [&](const SurfaceParameter& at) -> std::size_t {
-      if (surface->sub_count(at.face) > 1) return static_cast<std::size_t>(at.sub);
-      if (surface->triangular()) return at.u == 1 ? 1 : at.v == 1 ? 2 : 0;
-      return at.v == 0 ? (at.u == 0 ? 0 : 1) : (at.u == 1 ? 2 : 3);
-    };
-    for (int face = 0; face < mesh.face_count(); ++face) {
-      if (!surface->has_limit(face)) continue;
-      const auto vertex = static_cast<std::size_t>(mesh.face(face)[0]);
-      const auto corners = surface->corners_around({face, 0, 0, 0});
-      REQUIRE_FALSE(corners.empty());
-      CHECK(corners.size() <= static_cast<std::size_t>(faces[vertex]));
-      const Vec3 limit = surface->evaluate({face, 0, 0, 0})->position;
-      for (const SurfaceParameter& corner : corners) {
-        CHECK(mesh.face(corner.face)[place_of(corner)] == mesh.face(face)[0]);
-        CHECK((surface->evaluate(corner)->position - limit).norm() <= 1e-13 * mesh.diagonal());
-      }
-      ++vertices;
-    }
-  }
-  CHECK(vertices > 1000);
-  const auto torus = make_limit_surface(shaolin::torus("catmark", 5, 7), "catmark");
-  CHECK(torus->corners_around({3, 0, 1, 1}).size() == 4);
-  CHECK(torus->corners_around({3, 0, 0.5, 1}).empty());
-  CHECK_THROWS_AS(torus->corners_around({35, 0, 0, 0}), InputError);
-}
-
 }  // namespace shaolin

@@ -109,8 +109,9 @@ std::string Check::unsound(const Ray& ray, const Hit& hit) {
 
 bool Check::hit(const Ray& ray, const Hit& hit) {
   ++tally_.hits;
-  ++(hit.certificate.is_certified() ? tally_.certified : tally_.uncertified);
   std::string fault = unsound(ray, hit);
+  const bool is_certified = fault.empty() && subject_.queries().certify(ray, hit).is_certified();
+  ++(is_certified ? tally_.certified : tally_.uncertified);
   if (!fault.empty()) fail(Fault::ghost, ray, std::move(fault));
   return !failed_[static_cast<std::size_t>(Fault::ghost)];
 }

@@ -32,7 +32,8 @@ double norm_of(const Eigen::Matrix3d& matrix) { return matrix.cwiseAbs().rowwise
 
 RayQueries RayQueries::of(const Scene& scene) {
   return {[&](const Ray& ray) { return scene.intersect(ray); }, [&](const Ray& ray) { return scene.occluded(ray); },
-          [&](const Ray& ray) { return scene.all_hits(ray); }};
+          [&](const Ray& ray) { return scene.all_hits(ray); },
+          [&](const Ray& ray, const Hit& hit) { return scene.certify(ray, hit); }};
 }
 
 Subject::Subject(const StressModel& model, const QueriesOf& queries_of, std::string variant, const Affine& map)

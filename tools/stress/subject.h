@@ -23,6 +23,7 @@ struct RayQueries {
   std::function<std::optional<Hit>(const Ray&)> intersect;
   std::function<bool(const Ray&)> occluded;
   std::function<std::vector<Crossing>(const Ray&)> all_hits;
+  std::function<Certificate(const Ray&, const Hit&)> certify;
 
   static RayQueries of(const Scene& scene);
 };

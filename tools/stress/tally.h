@@ -34,8 +34,8 @@ struct Tally {
   std::size_t hits = 0;                ///< closest hits
   std::array<std::size_t, 3> wrong{};  ///< rays with such a fault, in the order of `faults`
   std::size_t undecided = 0;           ///< rays of which all hits do not add up, but graze: see check.h
-  std::size_t certified = 0;           ///< hits that carry a certificate
-  std::size_t uncertified = 0;         ///< hits that say that they have none; 0, too, where hits do not say
+  std::size_t certified = 0;           ///< hits that carry a certificate, or that Scene::certify() gives one
+  std::size_t uncertified = 0;         ///< all other hits
   double worst_error = 0;              ///< of positions, in units of the last place of the coordinates, see check.h
   std::vector<Failure> failures;       ///< the first `most_failures` of a model and family
   static constexpr std::size_t most_failures = 1000;
