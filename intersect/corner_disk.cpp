@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "../schemes/limit_surface.h"
@@ -92,22 +93,52 @@ bool CornerDisk::contains(const SurfaceParameter& at) const {
   });
 }
 
+namespace {
+
+/// A curve of the surface as a ray sees it, and a bound of how near it may come.
+struct SeenCurve {
+  std::function<std::optional<Vec3>(double)> at;  ///< from the ray, in [0, 1]; empty if it is nearer than the bound
+  Vec3 direction;
+
+  /// By how much the part between two places turns around the ray: halved until each part turns by a right angle at
+  /// most. (A face may look like a sliver, whose rim passes close by the ray between places that are far from it.)
+  std::optional<double> turn(double from, const Vec3& first, double to, const Vec3& last) const {
+    const double angle = std::atan2(direction.dot(first.cross(last)), first.dot(last));
+    if (std::abs(angle) <= 0.5 * std::numbers::pi) return angle;
+    constexpr double shortest = 0x1p-30;
+    const double half = 0.5 * (from + to);
+    const std::optional<Vec3> middle = to - from > shortest ? at(half) : std::nullopt;
+    if (!middle) return {};
+    const auto before = turn(from, first, half, *middle), after = turn(half, *middle, to, last);
+    if (!before || !after) return {};
+    return *before + *after;
+  }
+};
+
+}  // namespace
+
 std::optional<double> CornerDisk::wind(const LimitSurface& surface, const Vec3& through, const Vec3& direction,
                                        double clearance) const {
-  // Of the rim seen from the vertex: a face takes half a turn at most, so that a step stays far below half a turn.
   constexpr int steps = 4;
   double sum = 0;
   for (const SurfaceParameter& corner : corners_) {
     const auto [next, last] = sides_at({corner.u, corner.v}, radius_, triangular_);
-    Vec3 before = Vec3::Zero();
-    for (int i = 0; i <= steps; ++i) {
-      const double share = static_cast<double>(i) / steps;
-      const Parameter p = (1 - share) * next + share * last;
-      const auto sample = surface.evaluate({corner.face, corner.sub, p.x(), p.y()});
-      if (!sample) return {};
-      const Vec3 here = seen(through, sample->position, direction);
-      if (!(here.norm() > clearance)) return {};
-      if (i > 0) sum += std::atan2(direction.dot(before.cross(here)), before.dot(here));
+    const SeenCurve rim{[&, next = next, last = last](double share) -> std::optional<Vec3> {
+                          const Parameter p = (1 - share) * next + share * last;
+                          const auto sample = surface.evaluate({corner.face, corner.sub, p.x(), p.y()});
+                          if (!sample) return {};
+                          const Vec3 here = seen(through, sample->position, direction);
+                          return here.norm() > clearance ? std::optional(here) : std::nullopt;
+                        },
+                        direction};
+    std::optional<Vec3> before = rim.at(0);
+    for (int i = 1; i <= steps; ++i) {
+      constexpr double step = 1.0 / steps;
+      const std::optional<Vec3> here = rim.at(i * step);
+      if (!before || !here) return {};
+      const std::optional<double> angle = rim.turn((i - 1) * step, *before, i * step, *here);
+      if (!angle) return {};
+      sum += *angle;
       before = here;
     }
   }

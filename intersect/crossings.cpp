@@ -145,6 +145,8 @@ class Place {
 
   /// No contact has a sign, one for rounding alone.
   bool is_open() const { return is_open_ && !has(1) && !has(-1); }
+  /// Which of the faces around a vertex report it is a matter of rounding, and they need not agree.
+  bool is_at_vertex() const { return is_at_corner(surest().hit.at); }
 
   /// How often the faces turn around the ray, by the share that each takes.
   int turns(const LimitSurface& surface, const Vec3& direction) const {
@@ -156,11 +158,12 @@ class Place {
     return static_cast<int>(std::round(sum / (2 * std::numbers::pi)));
   }
 
-  /// A disk that holds all contacts; of an open place, of all faces around the vertex that is nearest to the first.
+  /// A disk that holds all contacts; of an open place, or one at a vertex, of all faces around the vertex that is
+  /// nearest to the first.
   std::optional<CornerDisk> disk(const LimitSurface& surface) const {
     std::vector<SurfaceParameter> all;
     for (const Contact& contact : contacts_) all.push_back(contact.hit.at);
-    if (is_open()) {
+    if (is_open() || is_at_vertex()) {
       const std::vector<SurfaceParameter> around =
           surface.places_of(nearest_corner(all.front(), surface.triangular())).all;
       all.insert(all.end(), around.begin(), around.end());
@@ -210,7 +213,7 @@ Sense sense_of(const Place& place, std::span<const Place> places, const LimitSur
   // Of a ray that runs along the surface there are any number of places, and open ones say nothing.
   constexpr std::size_t most_places = 64;
   std::optional<int> turns;
-  if (!place.is_clear() || (place.is_open() && places.size() <= most_places))
+  if (!place.is_clear() || ((place.is_open() || place.is_at_vertex()) && places.size() <= most_places))
     turns = turns_within_disk(place, places, surface, direction);
   if (!turns) turns = place.turns(surface, direction);
   return *turns > 0 ? Sense::leaves : *turns < 0 ? Sense::enters : Sense::touches;

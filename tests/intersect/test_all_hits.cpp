@@ -315,53 +315,65 @@ TEST_CASE("At the tip of a spike, seen as an outline, senses cancel", "[intersec
   for (const auto& [origin, direction] : lines) {
     CAPTURE(origin.transpose());
     int winding = 0;
-    for (const Crossing& crossing : scene.all_hits({origin, direction, -infinity, infinity}))
+    for (const Crossing& crossing : scene.all_hits({one.origin, one.direction, -infinity, infinity}))
       winding += static_cast<int>(crossing.sense);
     CHECK(winding == 0);
     CHECK(scene.count({origin, direction, -infinity, infinity}) % 2 == 0);
   }
 }
 
-TEST_CASE("Where rounding hides how deep a ray goes, both ends of its way count or none", "[intersect][all]") {
-  // Found by `shaolin stress`: at one end the way looked deep, at the other it did not.
+TEST_CASE("Entering and leaving cancel where rounding hides how deep a ray goes, and at tips", "[intersect][all]") {
+  // Found by `shaolin stress`. Here at one end of a way it looked deep, at the other it did not.
   struct Case {
     const char* model;
     double shift;
     Vec3 origin, direction;
   };
-  const std::vector<Case> cases{
-      {"whale",
-       0,
-       {-6067740.0012102276, 1655406.4849663561, -478686.03239401832},
-       {0.17018963351151795, -0.046431269815292164, 0.013426315184127059}},
-      {"cube_creases",
-       1e8,
-       {69999996.410260499, -100000000.09288093, 39999998.580647267},
-       {7.4665799328133984, -2.6022367467519438, 1.2159555998317231}},
-      {"spot_loop",
-       1e9,
-       {700000002.81975436, -1000000000.5320879, 399999998.32731283},
-       {-0.051759530243574388, 0.024184403122178483, 0.025343947494194177}},
-      {"catmark_cubes_semisharp",
-       1e9,
-       {700000001.75604022, -1000000003.4197094, 400000001.07941544},
-       {-0.06812299066401728, 0.38811030984419248, -0.30778181482283051}},
-      {"loop_cubes_semisharp",
-       1e9,
-       {699999998.35847497, -1000000000.7272223, 400000003.99174154},
-       {0.042329043612069961, 0.0095704453756382708, -0.11722482093054953}}};
+  const std::vector<Case> cases{{"whale",
+                                 0,
+                                 {-6067740.0012102276, 1655406.4849663561, -478686.03239401832},
+                                 {0.17018963351151795, -0.046431269815292164, 0.013426315184127059}},
+                                {"cube_creases",
+                                 1e8,
+                                 {69999996.410260499, -100000000.09288093, 39999998.580647267},
+                                 {7.4665799328133984, -2.6022367467519438, 1.2159555998317231}},
+                                {"spot_loop",
+                                 1e9,
+                                 {700000002.81975436, -1000000000.5320879, 399999998.32731283},
+                                 {-0.051759530243574388, 0.024184403122178483, 0.025343947494194177}},
+                                {"catmark_cubes_semisharp",
+                                 1e9,
+                                 {700000001.75604022, -1000000003.4197094, 400000001.07941544},
+                                 {-0.06812299066401728, 0.38811030984419248, -0.30778181482283051}},
+                                {"loop_cubes_semisharp",
+                                 1e9,
+                                 {699999998.35847497, -1000000000.7272223, 400000003.99174154},
+                                 {0.042329043612069961, 0.0095704453756382708, -0.11722482093054953}},
+                                // At tips, which a ray meets in one of their faces: it need not agree with the others.
+                                {"cube_creases",
+                                 0,
+                                 {0.2742920824630346, 6.645752494783665, 0.27429208246439885},
+                                 {-2.595542738089871, -15.57325642855339, -2.595542738093412}},
+                                {"cube_creases",
+                                 0,
+                                 {0.6047749894705703, 8.668781679589301, 0.6068032620637496},
+                                 {-0.09198997635601683, -0.5548434267348048, -0.09213672374855271}},
+                                {"cube_creases",
+                                 0,
+                                 {-5.900051789416466, -2.6978390336880693, 6.009459082648391},
+                                 {1.9540931025937813, 1.380735715171666, -2.492797868452784}}};
   int found = 0;
-  for (const auto& [name, shift, origin, direction] : cases) {
+  for (const Case& one : cases) {
     const auto& models = all_models();
-    const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) { return m.name == name; });
+    const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) { return m.name == one.model; });
     if (model == models.end()) continue;
     ++found;
-    INFO(name);
+    INFO(one.model);
     ControlMesh mesh = model->mesh;
-    for (Vec3& point : mesh.positions) point += shift * Vec3(0.7, -1, 0.4);
+    for (Vec3& point : mesh.positions) point += one.shift * Vec3(0.7, -1, 0.4);
     int sum = 0;
     const Scene scene(mesh, model->scheme);
-    for (const Crossing& crossing : scene.all_hits({origin, direction, -infinity, infinity}))
+    for (const Crossing& crossing : scene.all_hits({one.origin, one.direction, -infinity, infinity}))
       sum += static_cast<int>(crossing.sense);
     CHECK(sum == 0);
   }

@@ -110,9 +110,13 @@ std::string Check::unsound(const Ray& ray, const Hit& hit) {
 bool Check::hit(const Ray& ray, const Hit& hit) {
   ++tally_.hits;
   std::string fault = unsound(ray, hit);
-  const bool is_certified = fault.empty() && subject_.queries().certify(ray, hit).is_certified();
-  ++(is_certified ? tally_.certified : tally_.uncertified);
-  if (!fault.empty()) fail(Fault::ghost, ray, std::move(fault));
+  if (!fault.empty()) {
+    fail(Fault::ghost, ray, std::move(fault));
+  } else if (subject_.queries().certify(ray, hit).is_certified()) {
+    ++tally_.certified;
+  } else {
+    ++tally_.uncertified[static_cast<std::size_t>(reason_of(subject_, ray, hit))];
+  }
   return !failed_[static_cast<std::size_t>(Fault::ghost)];
 }
 

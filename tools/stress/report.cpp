@@ -26,6 +26,7 @@ std::vector<std::string> cells(const std::string& name, const Tally& tally) {
   result.push_back(std::to_string(tally.undecided));
   result.push_back(rounded(tally.worst_error));
   result.push_back(share ? rounded(100 * *share) + " %" : "-");
+  result.push_back(share ? std::to_string(tally.count(Unproven::other)) : "-");
   return result;
 }
 
@@ -39,6 +40,10 @@ Json json_of(const Tally& tally) {
             {"worst_error_ulp", tally.worst_error}};
   const auto share = tally.uncertified_share();
   json["uncertified_share"] = share ? Json(*share) : Json();
+  json["certified"] = tally.certified;
+  json["uncertified"] = {{"boundary", tally.count(Unproven::boundary)},
+                         {"flat", tally.count(Unproven::flat)},
+                         {"other", tally.count(Unproven::other)}};
   return json;
 }
 
@@ -81,8 +86,9 @@ Json json_of(const Result& result, const RunOptions& options) {
 }
 
 void write_rows(const std::filesystem::path& file, const Result& result) {
-  CsvWriter csv(file,
-                "family,model,rays,hits,lost,ghosts,duplicates,undecided,worst_error_ulp,uncertified_share,seconds");
+  CsvWriter csv(
+      file,
+      "family,model,rays,hits,lost,ghosts,duplicates,undecided,worst_error_ulp,uncertified_share,unexplained,seconds");
   for (const Row& row : result.rows) {
     csv.field(row.family).field(row.model);
     csv.field(static_cast<long long>(row.tally.rays)).field(static_cast<long long>(row.tally.hits));
@@ -93,7 +99,7 @@ void write_rows(const std::filesystem::path& file, const Result& result) {
       csv.field(*share);
     else
       csv.empty();
-    csv.field(row.seconds).end_row();
+    csv.field(static_cast<long long>(row.tally.count(Unproven::other))).field(row.seconds).end_row();
   }
   csv.commit();
 }
@@ -136,7 +142,8 @@ void write_peers(const std::filesystem::path& file, const TextTable& table) {
 
 TextTable table_of(const Result& result) {
   TextTable table;
-  table.header = {"family", "rays", "hits", "lost", "ghosts", "duplicates", "undecided", "worst ulp", "uncertified"};
+  table.header = {"family",     "rays",      "hits",      "lost",        "ghosts",
+                  "duplicates", "undecided", "worst ulp", "uncertified", "unexplained"};
   for (const Row& row : result.by_family()) table.rows.push_back(cells(row.family, row.tally));
   table.rows.push_back(cells("all", result.total()));
   return table;

@@ -9,7 +9,8 @@
 namespace shaolin::stress {
 
 /// One row per family and one for all: rays, hits, lost, ghosts, duplicates, undecided, the worst error in units of the
-/// last place, the uncertified share ("-" where hits do not say).
+/// last place, the uncertified share ("-" where there are no hits), and how many of those are neither flat nor at a
+/// boundary.
 TextTable table_of(const Result& result);
 
 /// The table, what makes the same run again, and the first failures of each row.

@@ -1,6 +1,7 @@
 #include "tools/stress/tally.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace shaolin::stress {
@@ -23,7 +24,7 @@ void Tally::add(const Tally& other) {
   for (std::size_t i = 0; i < wrong.size(); ++i) wrong[i] += other.wrong[i];
   undecided += other.undecided;
   certified += other.certified;
-  uncertified += other.uncertified;
+  for (std::size_t i = 0; i < uncertified.size(); ++i) uncertified[i] += other.uncertified[i];
   worst_error = std::max(worst_error, other.worst_error);
   const std::size_t room = most_failures - std::min(most_failures, failures.size());
   const auto end = other.failures.begin() + static_cast<std::ptrdiff_t>(std::min(room, other.failures.size()));
@@ -36,8 +37,9 @@ void Tally::fail(Failure failure) {
 }
 
 std::optional<double> Tally::uncertified_share() const {
-  if (certified + uncertified == 0) return {};
-  return static_cast<double>(uncertified) / static_cast<double>(certified + uncertified);
+  const std::size_t open = std::accumulate(uncertified.begin(), uncertified.end(), std::size_t{0});
+  if (certified + open == 0) return {};
+  return static_cast<double>(open) / static_cast<double>(certified + open);
 }
 
 }  // namespace shaolin::stress

@@ -8,6 +8,7 @@
 
 #include "intersect/ray.h"
 #include "schemes/control_mesh.h"
+#include "tools/stress/unproven.h"
 
 namespace shaolin::stress {
 
@@ -35,16 +36,17 @@ struct Tally {
   std::array<std::size_t, 3> wrong{};  ///< rays with such a fault, in the order of `faults`
   std::size_t undecided = 0;           ///< rays of which all hits do not add up, but graze: see check.h
   std::size_t certified = 0;           ///< hits that carry a certificate, or that Scene::certify() gives one
-  std::size_t uncertified = 0;         ///< all other hits
-  double worst_error = 0;              ///< of positions, in units of the last place of the coordinates, see check.h
-  std::vector<Failure> failures;       ///< the first `most_failures` of a model and family
+  std::array<std::size_t, unproven_count> uncertified{};  ///< all other hits, in the order of Unproven
+  double worst_error = 0;         ///< of positions, in units of the last place of the coordinates, see check.h
+  std::vector<Failure> failures;  ///< the first `most_failures` of a model and family
   static constexpr std::size_t most_failures = 1000;
 
   void add(const Tally& other);
   void fail(Failure failure);
   std::size_t count(Fault fault) const { return wrong[static_cast<std::size_t>(fault)]; }
   bool passed() const { return wrong == std::array<std::size_t, 3>{}; }
-  /// Of the hits that say whether they are certified, the share that is not; empty where none says.
+  std::size_t count(Unproven why) const { return uncertified[static_cast<std::size_t>(why)]; }
+  /// Of the hits that were asked for a certificate, the share that has none; empty where none was.
   std::optional<double> uncertified_share() const;
 };
 
