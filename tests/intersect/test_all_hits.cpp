@@ -315,7 +315,7 @@ TEST_CASE("At the tip of a spike, seen as an outline, senses cancel", "[intersec
   for (const auto& [origin, direction] : lines) {
     CAPTURE(origin.transpose());
     int winding = 0;
-    for (const Crossing& crossing : scene.all_hits({one.origin, one.direction, -infinity, infinity}))
+    for (const Crossing& crossing : scene.all_hits({origin, direction, -infinity, infinity}))
       winding += static_cast<int>(crossing.sense);
     CHECK(winding == 0);
     CHECK(scene.count({origin, direction, -infinity, infinity}) % 2 == 0);
