@@ -87,6 +87,15 @@ TEST_CASE("An allocation that fails in a query is a clean error", "[intersect][a
         it, Choice::some, [&](const Scene& scene) { return scene.occluded(ray); }, std::equal_to<>());
     fail_allocations<std::size_t>(
         it, Choice::some, [&](const Scene& scene) { return scene.all_hits(ray).size(); }, std::equal_to<>());
+    const Hit hit = *scene_of(it).intersect(ray);
+    fail_allocations<double>(
+        it, Choice::some,
+        [&](const Scene& scene) {
+          Hit uncertified = hit;
+          uncertified.certificate = {};
+          return scene.certify(ray, uncertified).error;
+        },
+        std::equal_to<>());
     CHECK(fail_allocations<double>(
               it, Choice::some, [&](const Scene& scene) { return scene.closest_point(ray.origin)->distance; },
               std::equal_to<>()) > 20);

@@ -20,6 +20,7 @@ std::vector<double> answers(const Scene& scene, const Ray& ray, Method method) {
   std::vector<double> numbers;
   const auto hit = scene.intersect(ray);
   numbers.push_back(hit ? hit->t : -1);
+  if (hit) numbers.push_back(scene.certify(ray, *hit).is_certified());
   numbers.push_back(scene.occluded(ray));
   if (method != Method::exact) return numbers;
   for (const Crossing& crossing : scene.all_hits(ray)) numbers.push_back(crossing.hit.t);
