@@ -12,6 +12,15 @@ namespace shaolin {
 
 class SchemeMasks;
 
+/// One face of a surface, or the quad at an n-gon's corner, to be evaluated many times: what depends on the face alone
+/// is found once, which is half of an evaluation and more.
+class LimitPatch {
+ public:
+  virtual ~LimitPatch() = default;
+  /// As LimitSurface::evaluate(), to the last bit.
+  virtual LimitSample evaluate(double u, double v) const = 0;
+};
+
 class LimitSurface {
  public:
   virtual ~LimitSurface() = default;
@@ -29,6 +38,10 @@ class LimitSurface {
   /// Throws InputError if face, sub, u or v is out of range, or if the scheme's masks lead to no finite point.
   /// O(valence x log2(1 / distance to an irregular corner)).
   virtual std::optional<LimitSample> evaluate(const SurfaceParameter& at) const = 0;
+
+  /// The face's patch, or null if it has no limit surface. The surface must outlive it. Throws InputError if face or
+  /// sub is out of range. O(size of the neighbourhood).
+  virtual std::unique_ptr<const LimitPatch> limit_patch(int face, int sub = 0) const = 0;
 
   /// The places that are one point of the surface with `at`, see places.h. Throws InputError as evaluate() does.
   virtual PointPlaces places_of(const SurfaceParameter& at) const = 0;

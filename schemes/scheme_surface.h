@@ -24,13 +24,12 @@ class SchemeSurface final : public LimitSurface {
   std::optional<LimitSample> evaluate(const SurfaceParameter& at) const override {
     check_range(at);
     if (!has_limit(at.face)) return {};
-    LimitSample sample = shaolin::evaluate(patch(at.face, at.sub), Parameter(at.u, at.v));
-    if (!sample.position.allFinite())
-      throw InputError("the limit at face " + std::to_string(at.face) +
-                       " is not finite: its coordinates are too large, or the masks of the scheme do not converge; see "
-                       "'shaolin scheme check'");
-    if (control_->is_collapsed(at.face)) sample.normal.setZero();  // rounding alone gave it a direction
-    return sample;
+    return sample(patch(at.face, at.sub), at);
+  }
+
+  std::unique_ptr<const LimitPatch> limit_patch(int face, int sub) const override {
+    check_range({face, sub, 0, 0});
+    return has_limit(face) ? std::make_unique<const FacePatch>(*this, face, sub) : nullptr;
   }
 
   PointPlaces places_of(const SurfaceParameter& at) const override {
@@ -50,6 +49,32 @@ class SchemeSurface final : public LimitSurface {
   const SubdivisionMesh<S>& mesh() const { return mesh_; }
 
  private:
+  class FacePatch final : public LimitPatch {
+   public:
+    FacePatch(const SchemeSurface& surface, int face, int sub)
+        : surface_(surface), face_(face), sub_(sub), patch_(surface.patch(face, sub)) {}
+    LimitSample evaluate(double u, double v) const override {
+      const SurfaceParameter at{face_, sub_, u, v};
+      surface_.check_range(at);
+      return surface_.sample(patch_, at);
+    }
+
+   private:
+    const SchemeSurface& surface_;
+    int face_, sub_;
+    Patch<S> patch_;
+  };
+
+  LimitSample sample(const Patch<S>& patch, const SurfaceParameter& at) const {
+    LimitSample sample = shaolin::evaluate(patch, Parameter(at.u, at.v));
+    if (!sample.position.allFinite())
+      throw InputError("the limit at face " + std::to_string(at.face) +
+                       " is not finite: its coordinates are too large, or the masks of the scheme do not converge; see "
+                       "'shaolin scheme check'");
+    if (control_->is_collapsed(at.face)) sample.normal.setZero();  // rounding alone gave it a direction
+    return sample;
+  }
+
   void check_range(const SurfaceParameter& at) const {
     if (at.face < 0 || at.face >= face_count())
       throw InputError("face " + std::to_string(at.face) + " is out of range; expected 0 to " +

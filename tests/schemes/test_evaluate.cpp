@@ -180,4 +180,30 @@ TEMPLATE_TEST_CASE("Vertices of valence 360 and 10,000 evaluate", "[schemes][eva
   }
 }
 
+TEST_CASE("A face's own patch evaluates as the surface does", "[schemes][evaluate]") {
+  int places = 0;
+  for (const Model& model : all_models()) {
+    INFO(model.name);
+    const auto surface = make_limit_surface(model.mesh, model.scheme);
+    for (int face = 0; face < surface->face_count(); face += 1 + surface->face_count() / 50)
+      for (int sub = 0; sub < surface->sub_count(face); ++sub) {
+        const auto patch = surface->limit_patch(face, sub);
+        REQUIRE((patch != nullptr) == surface->has_limit(face));
+        if (!patch) continue;
+        for (const Parameter& at : {Parameter(0, 0), Parameter(0.3, 0.45), Parameter(1e-5, 0), Parameter(0, 1)}) {
+          const LimitSample sample = patch->evaluate(at.x(), at.y());
+          const LimitSample expected = *surface->evaluate({face, sub, at.x(), at.y()});
+          CHECK(sample.position == expected.position);
+          CHECK(sample.normal == expected.normal);
+          REQUIRE(sample.derivatives.has_value() == expected.derivatives.has_value());
+          if (sample.derivatives) CHECK(sample.derivatives->duv == expected.derivatives->duv);
+          ++places;
+        }
+        CHECK_THROWS_AS(patch->evaluate(1.5, 0), InputError);
+      }
+    CHECK_THROWS_AS(surface->limit_patch(surface->face_count()), InputError);
+  }
+  CHECK(places > 1000);
+}
+
 }  // namespace shaolin

@@ -47,6 +47,9 @@ Subject::Subject(const StressModel& model, const QueriesOf& queries_of, std::str
       normals_(map.linear().inverse().transpose()),
       is_identity_(map.matrix() == Affine::Identity().matrix()),
       is_closed_(is_closed_surface(scene_->surface())) {
+  patches_.resize(static_cast<std::size_t>(surface().face_count()));
+  for (const auto& [face, sub] : sites_.pieces)
+    patches_[static_cast<std::size_t>(face)].push_back(surface().limit_patch(face, sub));
   for (const auto& [face, sub] : sites_.pieces)
     for (const auto& [u, v] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {0.3125, 0.3125}})
       box_.add(evaluate({face, sub, u, v}).position);
@@ -64,7 +67,8 @@ double Subject::distance(const Vec3& point) const {
 }
 
 LimitSample Subject::evaluate(const SurfaceParameter& at) const {
-  LimitSample sample = *surface().evaluate(at);
+  LimitSample sample =
+      patches_[static_cast<std::size_t>(at.face)][static_cast<std::size_t>(at.sub)]->evaluate(at.u, at.v);
   if (is_identity_) return sample;
   sample.position = map_ * sample.position;
   sample.normal = (normals_ * sample.normal).stableNormalized();

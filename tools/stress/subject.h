@@ -73,6 +73,8 @@ class Subject {
   std::unique_ptr<const Scene> scene_;
   RayQueries queries_;
   Sites sites_;
+  std::vector<std::vector<std::unique_ptr<const LimitPatch>>>
+      patches_;  ///< by face and sub, which are asked many times
   Box box_, control_box_;
   Eigen::Matrix3d normals_;  ///< the inverse transpose of the map
   double diagonal_ = 1, condition_ = 1, object_size_ = 0;

@@ -3,6 +3,7 @@
 /// the evaluation of the surface.
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "schemes/limit_surface.h"
@@ -21,13 +22,16 @@ class DenseSampling {
 
   DenseSampling(const LimitSurface& surface, int steps) : surface_(surface) {
     for (int face = 0; face < surface.face_count(); ++face) {
+      auto& patches = patches_.emplace_back();
       if (!surface.has_limit(face)) continue;
-      for (int sub = 0; sub < surface.sub_count(face); ++sub)
+      for (int sub = 0; sub < surface.sub_count(face); ++sub) {
+        patches.push_back(surface.limit_patch(face, sub));
         for (int j = 0; j <= steps; ++j)
           for (int i = 0; i <= (surface.triangular() ? steps - j : steps); ++i) {
             const SurfaceParameter at{face, sub, static_cast<double>(i) / steps, static_cast<double>(j) / steps};
-            samples_.push_back({at, surface.evaluate(at)->position});
+            samples_.push_back({at, evaluate(at).position});
           }
+      }
     }
   }
 
@@ -54,9 +58,10 @@ class DenseSampling {
   }
 
  private:
-  double distance(const Vec3& p, const SurfaceParameter& at) const {
-    return (surface_.evaluate(at)->position - p).norm();
+  LimitSample evaluate(const SurfaceParameter& at) const {
+    return patches_[static_cast<std::size_t>(at.face)][static_cast<std::size_t>(at.sub)]->evaluate(at.u, at.v);
   }
+  double distance(const Vec3& p, const SurfaceParameter& at) const { return (evaluate(at).position - p).norm(); }
 
   SurfaceParameter moved(SurfaceParameter at, double du, double dv) const {
     at.u = std::clamp(at.u + du, 0.0, 1.0);
@@ -75,7 +80,7 @@ class DenseSampling {
     constexpr int most_steps = 40;
     for (int i = 0; i < most_steps && goes_on; ++i) {
       goes_on = false;
-      const LimitSample sample = *surface_.evaluate(at);
+      const LimitSample sample = evaluate(at);
       if (!sample.derivatives) break;
       const Derivatives& d = *sample.derivatives;
       const Vec3 r = sample.position - p;
@@ -139,6 +144,7 @@ class DenseSampling {
   }
 
   const LimitSurface& surface_;
+  std::vector<std::vector<std::unique_ptr<const LimitPatch>>> patches_;  ///< by face and sub
   std::vector<Sample> samples_;
 };
 
