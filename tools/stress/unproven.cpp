@@ -28,7 +28,7 @@ std::vector<SurfaceParameter> about(const SurfaceParameter& at, bool triangular)
     std::vector<Parameter> ends{(1 - far) * here + far * middle};
     if (is_at_corner(at)) {
       const auto [next, last] = sides_at({std::round(at.u), std::round(at.v)}, far, triangular);
-      for (const double share : {0.0, 0.5, 1.0}) ends.push_back(share * next + (1 - share) * last);
+      for (const double share : {0.0, 0.5, 1.0}) ends.emplace_back(share * next + (1 - share) * last);
     }
     for (const Parameter& end : ends) result.push_back({at.face, at.sub, end.x(), end.y()});
   }
