@@ -320,8 +320,8 @@ auto DiskProof<S>::outlines_at(std::vector<Sector>& sectors, int level, const Ra
 
 template <Scheme S>
 std::optional<double> DiskProof<S>::error_at(const SurfaceParameter& at, const Vec3& position) const {
-  // The nearest place of each side and the corners, on the grid; on the sides of large cells where rounding may have led
-  // away from them, for a disk beside one would have to be as small.
+  // The nearest place of each side and the corners, on the grid; on the sides of large cells where rounding may have
+  // led away from them, for a disk beside one would have to be as small.
   const auto on_grid = [](double x) {
     constexpr double cell = 0x1p-16, rounding = 0x1p-42;
     const double side = cell * std::round(x / cell);

@@ -7,8 +7,9 @@ namespace shaolin {
 namespace {
 
 /// How many vertices the faces around a face's corners have if none stands in two places, by the sum of the corners'
-/// valences: of quads a ring of n has 2 n + 1. The face's corners stand in four rings each, the two vertices beyond each
-/// side in two: 8 n / 4 + 4 - 12 - 8. Of triangles n + 1; corners stand in three, the vertex beyond each side in two.
+/// valences: of quads a ring of n has 2 n + 1. The face's corners stand in four rings each, the two vertices beyond
+/// each side in two: 8 n / 4 + 4 - 12 - 8. Of triangles n + 1; corners stand in three, the vertex beyond each side in
+/// two.
 int vertices_around(FaceKind kind, int valences) {
   return kind == FaceKind::quad ? 2 * valences + 4 - 12 - 8 : valences + 3 - 6 - 3;
 }
