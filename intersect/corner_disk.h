@@ -37,6 +37,7 @@ class CornerDisk {
   static std::optional<CornerDisk> around(std::span<const SurfaceParameter> places, bool triangular);
 
   bool contains(const SurfaceParameter& at) const;
+  double radius() const { return radius_; }
 
   /// Makes the disk larger, until all of its rim is farther than `clearance` from the ray, and gives the turns of the
   /// rim about the ray's direction. Empty if there is no such disk, or if its rim is not closed. `through` is a point

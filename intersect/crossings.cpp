@@ -200,6 +200,9 @@ std::optional<int> turns_within_disk(const Place& place, std::span<const Place> 
   if (!disk) return {};
   std::optional<int> turns =
       disk->grow_and_wind(surface, place.surest().hit.sample.position, direction, clearance * place.error());
+  // Where it is large, against rounding so is what a surface bends in it, and a place whose faces agree knows better.
+  constexpr double largest_for_clear = 0x1p-12;
+  if (place.is_clear() && !place.is_open() && disk->radius() > largest_for_clear) return {};
   for (const Place& other : places) {
     if (!turns || &other == &place || !disk->contains(other.surest().hit.at)) continue;
     if (!other.is_clear()) return {};
