@@ -123,6 +123,30 @@ TEST_CASE("Halves of a triangle agree with evaluation", "[schemes][bezier]") {
   }
 }
 
+TEST_CASE("Parts over any rectangle or triangle agree with evaluation", "[schemes][bezier]") {
+  Random random(11);
+  const auto is_same = [](const Vec3& a, const Vec3& b) { return (a - b).cwiseAbs().maxCoeff() <= 1e-14; };
+  for (int trial = 0; trial < 50; ++trial) {
+    BezierQuad quad;
+    for (Vec3& point : quad.b) point = random.point();
+    const Parameter a(random.uniform(), random.uniform()), b(random.uniform(), random.uniform());
+    const BezierQuad part = quad.restricted(a.cwiseMin(b), a.cwiseMax(b));
+    BezierTriangle triangle;
+    for (Vec3& point : triangle.b) point = random.point();
+    std::array<Parameter, 3> corners;
+    for (Parameter& corner : corners) {
+      corner = Parameter(random.uniform(), random.uniform());
+      if (corner.sum() > 1) corner = Parameter::Ones() - corner;
+    }
+    const BezierTriangle third = triangle.restricted(corners);
+    for (const Parameter& p : {Parameter(0, 0), Parameter(0.25, 0.5), Parameter(0.125, 0.75), Parameter(0, 1)}) {
+      CHECK(is_same(part.position(p), quad.position(a.cwiseMin(b) + p.cwiseProduct((a - b).cwiseAbs()))));
+      const Parameter there = (1 - p.sum()) * corners[0] + p.x() * corners[1] + p.y() * corners[2];
+      CHECK(is_same(third.position(p), triangle.position(there)));
+    }
+  }
+}
+
 TEMPLATE_TEST_CASE("The domain's children invert each other", "[schemes][bezier][domain]", BezierQuad, BezierTriangle) {
   using D = typename TestType::DomainType;
   Random random(3);
